@@ -1,7 +1,7 @@
 //! Where points lie between the centres of cells, several at a time.
 
 use super::grid::Air;
-use crate::simd::{padded, whole_below};
+use crate::simd::{each_lane, padded, whole_below};
 
 /// Points that are looked at side by side.
 pub(super) const LANES: usize = 16;
@@ -61,11 +61,16 @@ impl Stencils {
                 around.iter_mut().zip(corners).for_each(|(lanes, corner)| lanes[lane] = corner);
             }
         }
-        around.map(|[left, right, upper_left, upper_right]| {
-            std::array::from_fn(|lane| {
-                let (x, y) = (self.right[lane], self.upper[lane]);
-                mix(mix(left[lane], right[lane], x), mix(upper_left[lane], upper_right[lane], x), y)
-            })
+        let [along_x, along_y] = &around;
+        [self.mixed(along_x), self.mixed(along_y)]
+    }
+
+    /// What is around the points, in each of the four cells, blended.
+    #[inline(always)]
+    fn mixed(&self, [left, right, upper_left, upper_right]: &[[f32; LANES]; 4]) -> [f32; LANES] {
+        each_lane(|lane| {
+            let (x, y) = (self.right[lane], self.upper[lane]);
+            mix(mix(left[lane], right[lane], x), mix(upper_left[lane], upper_right[lane], x), y)
         })
     }
 }

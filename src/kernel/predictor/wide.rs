@@ -37,16 +37,6 @@ pub(super) fn in_lanes(columns: Range<usize>, mut work: impl Wide) {
     }
 }
 
-/// A number for each lane. (`array::from_fn` is no part of the caller: it need not be compiled for its registers.)
-#[inline(always)]
-pub(super) fn lanes<const N: usize>(of: impl Fn(usize) -> f32) -> [f32; N] {
-    let mut lanes = [0.0; N];
-    for (i, lane) in lanes.iter_mut().enumerate() {
-        *lane = of(i);
-    }
-    lanes
-}
-
 /// `N` numbers of a row from `at` on.
 #[inline(always)]
 pub(super) fn load<const N: usize>(row: &[f32], at: usize) -> [f32; N] {

@@ -67,7 +67,7 @@ pub(crate) struct Array<const N: usize>([f32; N]);
 impl<const N: usize> Array<N> {
     #[inline(always)]
     fn zip(self, other: Self, operation: impl Fn(f32, f32) -> f32) -> Self {
-        Self(std::array::from_fn(|lane| operation(self.0[lane], other.0[lane])))
+        Self(each_lane(|lane| operation(self.0[lane], other.0[lane])))
     }
 }
 
@@ -148,12 +148,12 @@ impl<const N: usize> Lanes for Array<N> {
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self(std::array::from_fn(|lane| self.0[lane].sqrt()))
+        Self(each_lane(|lane| self.0[lane].sqrt()))
     }
 
     #[inline(always)]
     fn if_less(self, other: Self, yes: Self, no: Self) -> Self {
-        Self(std::array::from_fn(|lane| if self.0[lane] < other.0[lane] { yes.0[lane] } else { no.0[lane] }))
+        Self(each_lane(|lane| if self.0[lane] < other.0[lane] { yes.0[lane] } else { no.0[lane] }))
     }
 
     #[inline(always)]
@@ -163,7 +163,7 @@ impl<const N: usize> Lanes for Array<N> {
 
     #[inline(always)]
     fn add_rounded(self, sums: Self::Sums) -> Self::Sums {
-        std::array::from_fn(|lane| sums[lane].wrapping_add(rounded(self.0[lane])))
+        each_lane(|lane| sums[lane].wrapping_add(rounded(self.0[lane])))
     }
 
     #[inline(always)]
@@ -187,6 +187,16 @@ pub(crate) fn rounded(value: f32) -> i32 {
     // A cast would check its range lane by lane, which takes five times as long.
     // SAFETY: it is a number between both ends, which are whole numbers of 32 bits.
     unsafe { away.to_int_unchecked() }
+}
+
+/// A value for each lane. (`array::from_fn` may be left as a function of its own, which is not compiled for the caller's registers.)
+#[inline(always)]
+pub(crate) fn each_lane<const N: usize, T: Copy + Default>(of: impl Fn(usize) -> T) -> [T; N] {
+    let mut lanes = [T::default(); N];
+    for (lane, value) in lanes.iter_mut().enumerate() {
+        *value = of(lane);
+    }
+    lanes
 }
 
 /// The first `N` numbers, and 0 for what is missing.

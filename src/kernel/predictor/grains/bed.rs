@@ -3,6 +3,7 @@
 use crate::{
     parallel::Team,
     predictor::{conjugate::Conjugate, grains::cells::At, grid::MacGrid, rock::ClosedFaces, stencil::Axis, wide::load},
+    simd::each_lane,
 };
 use glam::Vec2;
 use std::ops::Range;
@@ -49,23 +50,16 @@ impl<'a> Bed<'a> {
         self.liquid[k] > 0.0
     }
 
-    /// Whether a face is one of a cell that has a pressure.
+    /// 1 for those of some faces side by side that are one of a cell that has a pressure, 0 for others.
     #[inline(always)]
-    pub fn is_touched(&self, axis: Axis, k: usize) -> bool {
-        self.liquid[k] + self.liquid[k - axis.step(self.grid)] > 0.0
-    }
-
-    /// Whether a face is one of a cell that has a pressure, and open.
-    #[inline(always)]
-    pub fn is_moved(&self, axis: Axis, k: usize) -> bool {
-        let (row, column) = (k / self.grid.stride, k % self.grid.stride);
-        let [open] = self.open::<1>(axis, At { row, column, k });
-        self.is_touched(axis, k) && open > 0.0
+    pub fn touched<const N: usize>(&self, axis: Axis, k: usize) -> [f32; N] {
+        let (before, after) = (load::<N>(self.liquid, k - axis.step(self.grid)), load::<N>(self.liquid, k));
+        each_lane(|i| if after[i] + before[i] > 0.0 { 1.0 } else { 0.0 })
     }
 
     /// Open shares of faces side by side.
     #[inline(always)]
-    pub fn open<const N: usize>(&self, axis: Axis, At { row, column, .. }: At) -> [f32; N] {
+    pub(super) fn open<const N: usize>(&self, axis: Axis, At { row, column, .. }: At) -> [f32; N] {
         let ClosedFaces { open_u, open_v, .. } = self.closed;
         load(if axis == Axis::U { open_u } else { open_v }, self.closed.row(row) + column)
     }

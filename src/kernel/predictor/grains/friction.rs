@@ -25,8 +25,9 @@ use crate::{
         level::WORTH_A_PIECE,
         stencil::Axis,
         transfer::Faces,
-        wide::{Wide, in_lanes, lanes, load, store},
+        wide::{Wide, in_lanes, load, store},
     },
+    simd::each_lane,
 };
 use std::ops::Range;
 
@@ -222,7 +223,7 @@ impl Wide for DivergeRow<'_> {
         let [left, right] = [at.k, at.k + 1].map(|k| load::<N>(u, k));
         let [lower, upper] = [at.k, at.k + bed.grid.stride].map(|k| load::<N>(v, k));
         let (liquid, before) = (load::<N>(bed.liquid, at.k), load::<N>(out, column));
-        let less = lanes(|i| {
+        let less = each_lane(|i| {
             let along = open_right[i] * right[i] - open_left[i] * left[i];
             before[i] - liquid[i] * (along + (open_upper[i] * upper[i] - open_lower[i] * lower[i]))
         });

@@ -1,14 +1,17 @@
 //! The passes of friction's iterations: where they set out from, and in each what a stress leaves of the flow, a step along the
 //! gradient, and back into the cone.
 
-use crate::predictor::{
-    grains::{
-        bed::Bed,
-        cells::{At, Cells},
-        fields::Fields,
+use crate::{
+    predictor::{
+        grains::{
+            bed::Bed,
+            cells::{At, Cells},
+            fields::Fields,
+        },
+        transfer::Faces,
+        wide::{load, store},
     },
-    transfer::Faces,
-    wide::{lanes, load, store},
+    simd::each_lane,
 };
 
 /// Velocities without friction on the faces that a stress moves, and the stress to set out from.
@@ -26,7 +29,7 @@ impl Cells<4> for SetOut<'_> {
         let means = [&faces.u, &faces.v].into_iter().zip(&faces.ways);
         for (out, ((means, ways), lightness)) in [flow_u, flow_v].into_iter().zip(means.zip(lightness.iter())) {
             let (means, ways, lightness) = (&means[k..k + N], &ways[k..k + N], load::<N>(lightness, k));
-            let flow = lanes(|i| if lightness[i] > 0.0 { means[i][1] + ways[i][0] } else { 0.0 });
+            let flow = each_lane(|i| if lightness[i] > 0.0 { means[i][1] + ways[i][0] } else { 0.0 });
             store::<N>(out, column, flow);
         }
         for (out, stress) in [before_s, before_t].into_iter().zip(stress.iter()) {
@@ -56,15 +59,15 @@ impl Cells<2> for Hold<'_> {
         let (t, t_right, t_upper) =
             (ahead::<N>(t, t0, further, k), ahead::<N>(t, t0, further, k + 1), ahead::<N>(t, t0, further, k + stride));
         let (light_u, light_v) = (load::<N>(light_u, k), load::<N>(light_v, k));
-        let u = lanes::<N>(|i| light_u[i] * ((s[i] - s_left[i]) + (t_upper[i] - t[i])));
-        let v = lanes::<N>(|i| light_v[i] * ((s_lower[i] - s[i]) + (t_right[i] - t[i])));
+        let u = each_lane::<N, _>(|i| light_u[i] * ((s[i] - s_left[i]) + (t_upper[i] - t[i])));
+        let v = each_lane::<N, _>(|i| light_v[i] * ((s_lower[i] - s[i]) + (t_right[i] - t[i])));
         if flow_u.is_empty() {
             store(out_u, column, u);
             store(out_v, column, v);
         } else {
             let (flow_u, flow_v) = (load::<N>(flow_u, k), load::<N>(flow_v, k));
-            store(out_u, column, lanes::<N>(|i| u[i] + flow_u[i]));
-            store(out_v, column, lanes::<N>(|i| v[i] + flow_v[i]));
+            store(out_u, column, each_lane::<N, _>(|i| u[i] + flow_u[i]));
+            store(out_v, column, each_lane::<N, _>(|i| v[i] + flow_v[i]));
         }
     }
 }
@@ -87,8 +90,8 @@ impl Cells<2> for Pull<'_> {
         let (step_s, step_t) = (load::<N>(step_s, k), load::<N>(step_t, k));
         let (u, right, lower) = (load::<N>(u, k), load::<N>(u, k + 1), load::<N>(u, k - stride));
         let (v, left, upper) = (load::<N>(v, k), load::<N>(v, k - 1), load::<N>(v, k + stride));
-        store(out_s, column, lanes::<N>(|i| s[i] + step_s[i] * ((right[i] - u[i]) - (upper[i] - v[i]))));
-        store(out_t, column, lanes::<N>(|i| t[i] + step_t[i] * ((u[i] - lower[i]) + (v[i] - left[i]))));
+        store(out_s, column, each_lane::<N, _>(|i| s[i] + step_s[i] * ((right[i] - u[i]) - (upper[i] - v[i]))));
+        store(out_t, column, each_lane::<N, _>(|i| t[i] + step_t[i] * ((u[i] - lower[i]) + (v[i] - left[i]))));
     }
 }
 
@@ -96,7 +99,7 @@ impl Cells<2> for Pull<'_> {
 #[inline(always)]
 fn ahead<const N: usize>(now: &[f32], before: &[f32], further: f32, k: usize) -> [f32; N] {
     let (now, before) = (load::<N>(now, k), load::<N>(before, k));
-    lanes(|i| now[i] + further * (now[i] - before[i]))
+    each_lane(|i| now[i] + further * (now[i] - before[i]))
 }
 
 /// Back into the cone √(S² + T²) ≤ limit, with the mean square of the other component from around.
@@ -121,12 +124,12 @@ impl Cells<2> for Limit<'_> {
         let (of_cells, of_corners, inner) = (load::<N>(of_cells, k), load::<N>(of_corners, k), load::<N>(inner, k));
         let corners = mean_square([&corner, &right, &upper, &upper_right]);
         let cells = mean_square([&own, &left, &lower, &lower_left]);
-        let s = lanes::<N>(|i| {
+        let s = each_lane::<N, _>(|i| {
             let share = of_cells[i] / (own[i] * own[i] + corners[i] + LEAST_SQUARE).sqrt();
             own[i] * if share < 1.0 { share } else { 1.0 }
         });
         store(out_s, column, s);
-        let t = lanes::<N>(|i| {
+        let t = each_lane::<N, _>(|i| {
             let share = of_corners[i] / (corner[i] * corner[i] + inner[i] * cells[i] + LEAST_SQUARE).sqrt();
             corner[i] * if share < 1.0 { share } else { 1.0 }
         });
@@ -137,5 +140,5 @@ impl Cells<2> for Limit<'_> {
 /// Mean square of four stresses.
 #[inline(always)]
 fn mean_square<const N: usize>([a, b, c, d]: [&[f32; N]; 4]) -> [f32; N] {
-    lanes(|i| 0.25 * ((a[i] * a[i] + b[i] * b[i]) + (c[i] * c[i] + d[i] * d[i])))
+    each_lane(|i| 0.25 * ((a[i] * a[i] + b[i] * b[i]) + (c[i] * c[i] + d[i] * d[i])))
 }

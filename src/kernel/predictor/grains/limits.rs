@@ -1,16 +1,19 @@
 //! How much stress grains can bear: Coulomb's law, from what presses them together, and cohesion.
 
-use crate::predictor::{
-    equation::steepness,
-    grains::{
-        bed::{Bed, is_wall},
-        cells::{At, Cells},
-        fields::Fields,
-        spread::Spread,
+use crate::{
+    predictor::{
+        equation::steepness,
+        grains::{
+            bed::{Bed, is_wall},
+            cells::{At, Cells},
+            fields::Fields,
+            spread::Spread,
+        },
+        stencil::Axis,
+        transfer::Faces,
+        wide::{load, store},
     },
-    stencil::Axis,
-    transfer::Faces,
-    wide::{lanes, load, store},
+    simd::each_lane,
 };
 
 /// By how much more what has not moved holds, and the strain of a substep, in g Δt a cell, at which that has ended.
@@ -47,7 +50,7 @@ impl Cells<2> for FindPressures<'_> {
         let (along, own) = (load::<N>(self.along, k), bed.rock::<N>(row, column));
         let [left, right] = [column - 1, column + 1].map(|column| bed.rock::<N>(row, column));
         let [lower, upper] = [row - 1, row + 1].map(|row| bed.rock::<N>(row, column));
-        let presses_wall = lanes(|i| {
+        let presses_wall = each_lane(|i| {
             let is_beside = !is_wall(upper[i]) & !is_wall(lower[i]);
             let is_above = !is_wall(right[i]) & !is_wall(left[i]);
             let normal = if is_beside {
@@ -83,8 +86,8 @@ impl FindPressures<'_> {
                 least[i] = if (open[i] > 0.0) & (other[i] < least[i]) { other[i] } else { least[i] };
             }
         }
-        let presses = lanes(|i| (bears[i] * (p[i] - pore[i])).max(0.0));
-        [presses, lanes(|i| (bears[i] * (p[i] - pore[i] + 0.5 * (p[i] - least[i]))).max(0.0))]
+        let presses = each_lane(|i| (bears[i] * (p[i] - pore[i])).max(0.0));
+        [presses, each_lane(|i| (bears[i] * (p[i] - pore[i] + 0.5 * (p[i] - least[i]))).max(0.0))]
     }
 
     /// The pressure of cells that have none by that of those beside them.
@@ -110,7 +113,7 @@ impl FindPressures<'_> {
                 counts[i] += if is_wet { 1.0 } else { 0.0 };
             }
         }
-        lanes(|i| if counts[i] > 0.0 { sums[i] / counts[i] } else { 0.0 })
+        each_lane(|i| if counts[i] > 0.0 { sums[i] / counts[i] } else { 0.0 })
     }
 }
 
@@ -137,7 +140,7 @@ impl Cells<3> for FindLimits<'_> {
         let (liquid, presses) = (load::<N>(bed.liquid, k), load::<N>(pressed, k));
         let [of_cells, of_corners] = strain.each_ref().map(|strain| load::<N>(strain, k));
         let limits =
-            lanes(|i| if liquid[i] > 0.0 { sines[i] * presses[i] * holds(of_cells[i]) + bonds[i] } else { 0.0 });
+            each_lane(|i| if liquid[i] > 0.0 { sines[i] * presses[i] * holds(of_cells[i]) + bonds[i] } else { 0.0 });
         store::<N>(cells, column, limits);
 
         let [mut inside, mut outside, mut counts] = [[0.0; N]; 3];
@@ -158,8 +161,8 @@ impl Cells<3> for FindLimits<'_> {
             }
         }
         let takes_part = load::<N>(takes_part, k);
-        let is_inner = lanes(|i| if (takes_part[i] != 0.0) & (counts[i] == 4.0) { 1.0 } else { 0.0 });
-        let limits = lanes(|i| {
+        let is_inner = each_lane(|i| if (takes_part[i] != 0.0) & (counts[i] == 4.0) { 1.0 } else { 0.0 });
+        let limits = each_lane(|i| {
             let presses = if counts[i] == 4.0 { 0.25 * inside[i] } else { outside[i] / f32::max(counts[i], 1.0) };
             // What holds grains together does not hold them to walls.
             let bond = if counts[i] == 4.0 { bonds[i] } else { 0.0 };

@@ -25,8 +25,9 @@ use crate::{
         level::WORTH_A_PIECE,
         share_out::ShareOut,
         transfer::Faces,
-        wide::{Wide, in_lanes, lanes, load, store},
+        wide::{Wide, in_lanes, load, store},
     },
+    simd::each_lane,
 };
 use std::ops::Range;
 
@@ -171,7 +172,7 @@ impl Grains {
     /// Cells that friction worked on in the last substep.
     #[cfg(test)]
     pub fn cells(&self, grid: &MacGrid) -> usize {
-        self.near.indices(grid).map(|run| run.len()).sum()
+        self.near.rows(grid).flat_map(|row| self.near.runs(row)).map(|run| run.len()).sum()
     }
 
     /// Bytes held.
@@ -232,7 +233,7 @@ impl Wide for UnevenRow<'_> {
     fn run<const N: usize>(&mut self, column: usize) {
         let Self { bed, spread, first, out } = self;
         let (filled, bears) = (load::<N>(out, column), spread.bears::<N>(bed.grid, *first + column));
-        let uneven = lanes(|i| {
+        let uneven = each_lane(|i| {
             let near = (filled[i] - 1.0).clamp(-LEFT_ALONE[0], LEFT_ALONE[1]);
             filled[i] - near * bears[i]
         });

@@ -1,10 +1,13 @@
 //! Which part of the grid friction works on: where grains touch, or are under a stress that they left. Single grains that drift in a
 //! liquid rub on nothing.
 
-use crate::predictor::{
-    grains::{bed::Bed, spread::Spread},
-    grid::MacGrid,
-    pieces::Pieces,
+use crate::{
+    predictor::{
+        grains::{bed::Bed, spread::Spread},
+        grid::MacGrid,
+        pieces::Pieces,
+    },
+    simd::{Lanes, Pass},
 };
 use std::ops::Range;
 
@@ -43,18 +46,7 @@ impl Near {
         spread: &Spread,
         is_stressed: impl Fn(Range<usize>) -> bool,
     ) {
-        let (grid, Self { reached, touching, now, before }) = (bed.grid, self);
-        std::mem::swap(now, before);
-        let indices = |row: usize, columns: Range<usize>| grid.row(row) + columns.start..grid.row(row) + columns.end;
-        let across = columns.start..columns.end + 1;
-        reached.find_by(rows.clone(), across.clone(), |row, columns| spread.any(indices(row, columns)));
-        let rows = rows.start.saturating_sub(2).max(1)..(rows.end + 1).min(grid.rows + 2);
-        touching.find_by(rows, across, |row, around| {
-            let cells = around.start.saturating_sub(REACH).max(1)..(around.end + REACH).min(columns.end);
-            let cells = indices(row, cells);
-            (reached.is_near(row, around.start) && spread.any_touch(bed, cells.clone())) || is_stressed(cells)
-        });
-        now.widen(touching, REACH);
+        bed.team.instructions.run(Find { near: self, bed, rows, columns, spread, is_stressed });
     }
 
     /// Faces that grains reach.
@@ -84,13 +76,6 @@ impl Near {
         self.now.per_row().max(1)
     }
 
-    /// Their indices.
-    pub fn indices(&self, grid: &MacGrid) -> impl Iterator<Item = Range<usize>> + use<'_> {
-        let stride = grid.stride;
-        let of = move |row: usize| self.runs(row).map(move |run| row * stride + run.start..row * stride + run.end);
-        self.rows(grid).flat_map(of)
-    }
-
     /// Shows `visit` the indices of what was worked on in the last substep and no longer is.
     pub fn left(&self, grid: &MacGrid, mut visit: impl FnMut(Range<usize>)) {
         self.before.without(&self.now, |row, run| visit(grid.row(row) + run.start..grid.row(row) + run.end));
@@ -99,5 +84,33 @@ impl Near {
     /// Bytes held.
     pub fn memory(&self) -> usize {
         [&self.reached, &self.touching, &self.now, &self.before].map(Pieces::memory).iter().sum()
+    }
+}
+
+struct Find<'a, F> {
+    near: &'a mut Near,
+    bed: &'a Bed<'a>,
+    rows: &'a Range<usize>,
+    columns: &'a Range<usize>,
+    spread: &'a Spread<'a>,
+    is_stressed: F,
+}
+
+impl<F: Fn(Range<usize>) -> bool> Pass for Find<'_, F> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { near: Near { reached, touching, now, before }, bed, rows, columns, spread, is_stressed } = self;
+        let grid = bed.grid;
+        std::mem::swap(now, before);
+        let indices = |row: usize, columns: Range<usize>| grid.row(row) + columns.start..grid.row(row) + columns.end;
+        let across = columns.start..columns.end + 1;
+        reached.find_by(rows.clone(), across.clone(), |row, columns| spread.any(indices(row, columns)));
+        let rows = rows.start.saturating_sub(2).max(1)..(rows.end + 1).min(grid.rows + 2);
+        touching.find_by(rows, across, |row, around| {
+            let cells = around.start.saturating_sub(REACH).max(1)..(around.end + REACH).min(columns.end);
+            let cells = indices(row, cells);
+            (reached.is_near(row, around.start) && spread.any_touch(bed, cells.clone())) || is_stressed(cells)
+        });
+        now.widen(touching, REACH);
     }
 }

@@ -1,14 +1,17 @@
 //! What takes part in friction: faces that a stress moves, and cells and corners that can have one.
 
-use crate::predictor::{
-    grains::{
-        bed::Bed,
-        cells::{At, Cells},
-        fields::Fields,
+use crate::{
+    predictor::{
+        grains::{
+            bed::Bed,
+            cells::{At, Cells},
+            fields::Fields,
+        },
+        stencil::Axis,
+        transfer::Faces,
+        wide::{load, store},
     },
-    stencil::Axis,
-    transfer::Faces,
-    wide::{lanes, load, store},
+    simd::each_lane,
 };
 
 /// Least mass of a face, of a full one's: what is lighter would be moved at once by any stress.
@@ -32,15 +35,15 @@ impl Cells<2> for Lighten<'_> {
             let density = match &faces.matter {
                 Some(matter) => {
                     let of_faces = &matter.of(axis)[k..k + N];
-                    lanes(|i| of_faces[i][1])
+                    each_lane(|i| of_faces[i][1])
                 }
                 None => [1.0; N],
             };
-            let [before, after] = [k - axis.step(bed.grid), k].map(|k| load::<N>(bed.liquid, k));
+            let touched = bed.touched::<N>(axis, k);
             let open = bed.open::<N>(axis, at);
-            let lightness = lanes(|i| {
+            let lightness = each_lane(|i| {
                 let mass = (COMPACT * counts[i][0] / bed.full).clamp(LEAST_MASS, 1.0);
-                let is_moved = (after[i] + before[i] > 0.0) & (open[i] > 0.0);
+                let is_moved = (touched[i] > 0.0) & (open[i] > 0.0);
                 if is_moved { density[i] / mass } else { 0.0 }
             });
             store::<N>(out, column, lightness);
@@ -89,7 +92,7 @@ impl Cells<6> for TakePart<'_> {
         let liquid = load::<N>(bed.liquid, k);
         let [own_u, right] = [k, k + 1].map(|k| load::<N>(u, k));
         let [own_v, upper] = [k, k + stride].map(|k| load::<N>(v, k));
-        let of_cells = lanes(|i| {
+        let of_cells = each_lane(|i| {
             let (beside, above) = ([own_u[i], right[i]], [own_v[i], upper[i]]);
             let takes_part = (liquid[i] > 0.0) & (is_moved(beside) | is_moved(above));
             if takes_part { step(beside, above) } else { 0.0 }
@@ -102,7 +105,7 @@ impl Cells<6> for TakePart<'_> {
         let open_lower_u = bed.open::<N>(Axis::U, At { row: row - 1, ..at });
         let open_v = bed.open::<N>(Axis::V, at);
         let open_left_v = bed.open::<N>(Axis::V, At { column: column - 1, ..at });
-        let of_corners = lanes(|i| {
+        let of_corners = each_lane(|i| {
             // Corners of which a face is neither moved nor closed are beside the air: nothing is held there.
             let is_held = |lightness: f32, open: f32| (lightness > 0.0) | (open == 0.0);
             let (beside, above) = ([own_u[i], lower_u[i]], [own_v[i], left_v[i]]);

@@ -5,16 +5,19 @@
 //! reaches a cell goes by how near water and air are: head and share are harmonic in the grains (seepage by Darcy's law, without
 //! what it takes of the water), with the water's and 1 beside water, with 0 beside air.
 
-use crate::predictor::{
-    grains::{
-        bed::Bed,
-        cells::{At, Cells, find},
-        fields::Fields,
-        near::Near,
-        spread::Spread,
+use crate::{
+    predictor::{
+        grains::{
+            bed::Bed,
+            cells::{At, Cells, find},
+            fields::Fields,
+            near::Near,
+            spread::Spread,
+        },
+        stencil::Axis,
+        wide::{load, store},
     },
-    stencil::Axis,
-    wide::{lanes, load, store},
+    simd::each_lane,
 };
 
 /// Sweeps of a substep: what is far from the water becomes wet in the course of some ticks.
@@ -85,7 +88,7 @@ impl Pore {
 /// What the water of a density has lost of its head in cells side by side, d/s.
 #[inline(always)]
 fn heights<const N: usize>(bed: &Bed, density: f32, At { row, column, .. }: At) -> [f32; N] {
-    lanes(|i| -density * (bed.kick.x * (column + i) as f32 + bed.kick.y * row as f32))
+    each_lane(|i| -density * (bed.kick.x * (column + i) as f32 + bed.kick.y * row as f32))
 }
 
 /// Marks the cells of grains, and sets head and share in all others.
@@ -102,13 +105,13 @@ impl Cells<5> for Begin<'_> {
         let At { column, k, .. } = at;
         let (liquid, pressure) = (load::<N>(bed.liquid, k), load::<N>(pressure, k));
         let (bears, heights) = (spread.bears::<N>(bed.grid, k), heights::<N>(bed, *density, at));
-        let is_inside = lanes::<N>(|i| if (liquid[i] > 0.0) & (bears[i] > GRAINS) { 1.0 } else { 0.0 });
-        let head: [f32; N] = lanes(|i| if liquid[i] > 0.0 { pressure[i].max(0.0) + heights[i] } else { 0.0 });
-        let share: [f32; N] = lanes(|i| if liquid[i] > 0.0 { 1.0 } else { 0.0 });
+        let is_inside = each_lane::<N, _>(|i| if (liquid[i] > 0.0) & (bears[i] > GRAINS) { 1.0 } else { 0.0 });
+        let head: [f32; N] = each_lane(|i| if liquid[i] > 0.0 { pressure[i].max(0.0) + heights[i] } else { 0.0 });
+        let share: [f32; N] = each_lane(|i| if liquid[i] > 0.0 { 1.0 } else { 0.0 });
         let [own_head, own_share, next_head, next_share, inside] = rows;
         for (row, values) in [(own_head, head), (next_head, head), (own_share, share), (next_share, share)] {
             let before = load::<N>(row, column);
-            store::<N>(row, column, lanes(|i| if is_inside[i] > 0.0 { before[i] } else { values[i] }));
+            store::<N>(row, column, each_lane(|i| if is_inside[i] > 0.0 { before[i] } else { values[i] }));
         }
         store(inside, column, is_inside);
     }
@@ -132,7 +135,7 @@ impl Cells<2> for Seep<'_> {
             let own = load::<N>(field, k);
             let [at_left, at_right] = [k - 1, k + 1].map(|k| load::<N>(field, k));
             let [at_lower, at_upper] = [k - stride, k + stride].map(|k| load::<N>(field, k));
-            let next = lanes(|i| {
+            let next = each_lane(|i| {
                 let open = (left[i] + right[i]) + (lower[i] + upper[i]);
                 let sum =
                     (left[i] * at_left[i] + right[i] * at_right[i]) + (lower[i] * at_lower[i] + upper[i] * at_upper[i]);
@@ -155,7 +158,7 @@ impl Cells<1> for Finish<'_> {
     fn find<const N: usize>(&self, bed: &Bed, at: At, [pressure]: &mut [&mut [f32]; 1]) {
         let [head, share] = self.reached.each_ref().map(|field| load::<N>(field, at.k));
         let heights = heights::<N>(bed, self.density, at);
-        let left = lanes(|i| head[i] - share[i] * heights[i]);
+        let left = each_lane(|i| head[i] - share[i] * heights[i]);
         store::<N>(pressure, at.column, left.map(|left| if left > 0.0 { left } else { 0.0 }));
     }
 }

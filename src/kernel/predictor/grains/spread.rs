@@ -1,9 +1,12 @@
 //! Where grains are.
 
-use crate::predictor::{
-    grains::bed::Bed,
-    grid::MacGrid,
-    wide::{Wide, in_lanes, lanes, load},
+use crate::{
+    predictor::{
+        grains::bed::Bed,
+        grid::MacGrid,
+        wide::{Wide, in_lanes, load},
+    },
+    simd::each_lane,
 };
 use std::ops::Range;
 
@@ -47,7 +50,7 @@ impl Spread<'_> {
     pub fn bonds<const N: usize>(&self, grid: &MacGrid, k: usize) -> [f32; N] {
         let Some(bound) = self.bound else { return [0.0; N] };
         let (means, bears) = (means::<N>(bound, grid, k), self.bears::<N>(grid, k));
-        lanes(|i| means[i] * bears[i])
+        each_lane(|i| means[i] * bears[i])
     }
 
     /// How much of the pressure of cells from index `k` on their grains bear: none where they do not touch.
@@ -55,7 +58,7 @@ impl Spread<'_> {
     pub fn bears<const N: usize>(&self, grid: &MacGrid, k: usize) -> [f32; N] {
         let [u, v] = self.grains.each_ref().map(|faces| &faces[..]);
         let (grains, all) = (around::<N>([u, v], 0, grid, k), around::<N>(self.all, 0, grid, k));
-        lanes(|i| {
+        each_lane(|i| {
             let share = if all[i] > 0.0 { grains[i] / all[i] } else { 0.0 };
             let share = (share - TOUCHING[0]) / (TOUCHING[1] - TOUCHING[0]);
             let share = if share > 0.0 { share } else { 0.0 };
@@ -87,7 +90,7 @@ impl Wide for AnyTouch<'_> {
 fn means<const N: usize>(of: &[Vec<[f32; 2]>; 2], grid: &MacGrid, k: usize) -> [f32; N] {
     let [u, v] = of.each_ref().map(|faces| &faces[..]);
     let (weights, sums) = (around::<N>([u, v], 0, grid, k), around::<N>([u, v], 1, grid, k));
-    lanes(|i| if weights[i] > 0.0 { sums[i] / weights[i] } else { 0.0 })
+    each_lane(|i| if weights[i] > 0.0 { sums[i] / weights[i] } else { 0.0 })
 }
 
 /// Sums of a number of the faces of cells.

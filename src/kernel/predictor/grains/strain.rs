@@ -1,12 +1,15 @@
 //! How much the grains are strained in a substep.
 
-use crate::predictor::{
-    grains::{
-        bed::Bed,
-        cells::{At, Cells},
-        fields::Fields,
+use crate::{
+    predictor::{
+        grains::{
+            bed::Bed,
+            cells::{At, Cells},
+            fields::Fields,
+        },
+        wide::{load, store},
     },
-    wide::{lanes, load, store},
+    simd::each_lane,
 };
 
 /// Velocities with what the stress changes.
@@ -20,7 +23,7 @@ impl Cells<2> for Hasten<'_> {
     fn find<const N: usize>(&self, _: &Bed, At { column, k, .. }: At, rows: &mut [&mut [f32]; 2]) {
         for (out, (flow, gained)) in rows.iter_mut().zip(self.flow.iter().zip(self.gained)) {
             let (flow, gained) = (load::<N>(flow, k), load::<N>(gained, k));
-            store::<N>(out, column, lanes(|i| flow[i] + gained[i]));
+            store::<N>(out, column, each_lane(|i| flow[i] + gained[i]));
         }
     }
 }
@@ -38,7 +41,7 @@ impl Cells<1> for Shear<'_> {
         let [u, u_lower] = [k, k - bed.grid.stride].map(|k| load::<N>(u, k));
         let [v, v_left] = [k, k - 1].map(|k| load::<N>(v, k));
         let step = load::<N>(step, k);
-        let sheared = lanes(|i| {
+        let sheared = each_lane(|i| {
             let sheared = (u[i] - u_lower[i] + v[i] - v_left[i]).abs();
             if step[i] > 0.0 { sheared } else { 0.0 }
         });
@@ -65,7 +68,7 @@ impl Cells<1> for Strain<'_> {
         let [v, v_upper] = [k, k + stride].map(|k| load::<N>(v, k));
         let around = [k, k + 1, k + stride, k + stride + 1].map(|k| load::<N>(corners, k));
         let liquid = load::<N>(bed.liquid, k);
-        let strained = lanes(|i| {
+        let strained = each_lane(|i| {
             let own = (u_right[i] - u[i] - v_upper[i] + v[i]).abs();
             let most = around.iter().fold(own, |most, corners| most.max(corners[i]));
             if liquid[i] > 0.0 { most } else { 0.0 }

@@ -8,7 +8,9 @@ use crate::{
         pieces::Pieces,
         stencil::Axis,
         transfer::{Faces, Way},
+        wide::{Wide, in_lanes, load},
     },
+    simd::each_lane,
 };
 use std::ops::Range;
 
@@ -37,16 +39,67 @@ impl Friction {
     }
 }
 
-/// Pieces of a row, with the padding before the first column.
+/// Runs of faces of a row, with the padding before the first column as one of its own.
 #[inline(always)]
 fn with_padding(pieces: &Pieces, row: usize) -> impl Iterator<Item = Range<usize>> + use<'_> {
-    pieces.runs(row).map(|run| if run.start == 1 { 0..run.end } else { run })
+    pieces.runs(row).flat_map(|run| [if run.start == 1 { 0..1 } else { 0..0 }, run])
 }
 
-/// The faces beside a face.
-#[inline(always)]
-fn around(k: usize, stride: usize) -> [usize; 4] {
-    [k.saturating_sub(1), k + 1, k.saturating_sub(stride), k + stride]
+/// The faces of a cell that has a pressure, 1, and others, 0: some faces side by side and those beside them.
+struct Touched<const N: usize> {
+    own: [f32; N],
+    left: [f32; N],
+    right: [f32; N],
+    lower: [f32; N],
+    upper: [f32; N],
+}
+
+impl<const N: usize> Touched<N> {
+    #[inline(always)]
+    fn new(bed: &Bed, axis: Axis, At { row, column, k }: At) -> Self {
+        let (stride, none) = (bed.grid.stride, [0.0; N]);
+        // There is nothing below the padding and before it.
+        Self {
+            own: if row > 0 { bed.touched(axis, k) } else { none },
+            left: if row > 0 && column > 0 { bed.touched(axis, k - 1) } else { none },
+            right: if row > 0 { bed.touched(axis, k + 1) } else { none },
+            lower: if row > 1 { bed.touched(axis, k - stride) } else { none },
+            upper: bed.touched(axis, k + stride),
+        }
+    }
+
+    /// Those of the faces beside that are open.
+    #[inline(always)]
+    fn moved(self, bed: &Bed, axis: Axis, at: At) -> Self {
+        let At { row, column, .. } = at;
+        let moved = |touched: [f32; N], at: At| {
+            let open = bed.open::<N>(axis, at);
+            each_lane(|i| if open[i] > 0.0 { touched[i] } else { 0.0 })
+        };
+        Self {
+            own: self.own,
+            left: if column > 0 { moved(self.left, At { column: column - 1, ..at }) } else { self.left },
+            right: moved(self.right, At { column: column + 1, ..at }),
+            lower: if row > 0 { moved(self.lower, At { row: row - 1, ..at }) } else { self.lower },
+            upper: moved(self.upper, At { row: row + 1, ..at }),
+        }
+    }
+
+    /// The mean of what `of` says of those beside by their index, and how many that are.
+    #[inline(always)]
+    fn mean(&self, k: usize, stride: usize, of: impl Fn(usize) -> [f32; N]) -> [[f32; N]; 2] {
+        let Self { left, right, lower, upper, .. } = self;
+        let (at_left, at_right) = (of(k.saturating_sub(1)), of(k + 1));
+        let (at_lower, at_upper) = (of(k.saturating_sub(stride)), of(k + stride));
+        let of_side = |touched: f32, value: f32| if touched > 0.0 { value } else { 0.0 };
+        let counts = each_lane::<N, _>(|i| ((left[i] + right[i]) + lower[i]) + upper[i]);
+        let means = each_lane(|i| {
+            let sum = (of_side(left[i], at_left[i]) + of_side(right[i], at_right[i])) + of_side(lower[i], at_lower[i]);
+            let sum = sum + of_side(upper[i], at_upper[i]);
+            if counts[i] > 0.0 { sum / counts[i] } else { 0.0 }
+        });
+        [means, counts]
+    }
 }
 
 /// Adds what friction changes, beside the bed the mean of it.
@@ -62,25 +115,30 @@ struct AddGains<'a> {
 impl Sweep<Rows<'_, Way>> for AddGains<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut ways: Rows<Way>) {
-        let Self { bed, pieces, beside, gained, axis } = self;
-        let stride = bed.grid.stride;
-        for (j, ways) in rows.zip(ways.each()).filter(|(j, _)| beside.contains(j)) {
-            for columns in with_padding(pieces, j) {
-                for column in columns {
-                    let k = bed.grid.row(j) + column;
-                    let is_touched = |k: usize| k >= stride && bed.is_touched(*axis, k);
-                    if is_touched(k) {
-                        ways[column][0] += gained[k];
-                        continue;
-                    }
-                    let (mut sum, mut count) = (0.0, 0.0);
-                    for other in around(k, stride).into_iter().filter(|other| is_touched(*other)) {
-                        (sum, count) = (sum + gained[other], count + 1.0);
-                    }
-                    ways[column][0] += if count > 0.0 { sum / count } else { 0.0 };
-                }
+        for (row, ways) in rows.zip(ways.each()).filter(|(row, _)| self.beside.contains(row)) {
+            for columns in with_padding(self.pieces, row) {
+                in_lanes(columns, AddToRow { work: self, row, ways });
             }
         }
+    }
+}
+
+struct AddToRow<'a> {
+    work: &'a AddGains<'a>,
+    row: usize,
+    ways: &'a mut [Way],
+}
+
+impl Wide for AddToRow<'_> {
+    #[inline(always)]
+    fn run<const N: usize>(&mut self, column: usize) {
+        let AddGains { bed, gained, axis, .. } = self.work;
+        let (row, k) = (self.row, bed.grid.row(self.row) + column);
+        let touched = Touched::<N>::new(bed, *axis, At { row, column, k });
+        let own = load::<N>(gained, k);
+        let [beside, _] = touched.mean(k, bed.grid.stride, |k| load(gained, k));
+        let more = each_lane::<N, _>(|i| if touched.own[i] > 0.0 { own[i] } else { beside[i] });
+        self.ways[column..column + N].iter_mut().zip(more).for_each(|(way, more)| way[0] += more);
     }
 }
 
@@ -98,31 +156,41 @@ struct Draw<'a> {
 impl Sweep<Rows<'_, GrainWay>> for Draw<'_> {
     #[inline(always)]
     fn run(&self, rows: Range<usize>, mut out: Rows<GrainWay>) {
-        let Self { bed, pieces, beside, means, ways, axis } = self;
-        let stride = bed.grid.stride;
-        let is_moved = |k: usize| k >= stride && bed.is_moved(*axis, k);
-        let velocity = |k: usize| means[k][1] + ways[k][0];
-        for (j, out) in rows.zip(out.each()) {
-            if !beside.contains(&j) {
-                with_padding(pieces, j).for_each(|columns| out[columns].fill([0.0; 2]));
-                continue;
-            }
-            for columns in with_padding(pieces, j) {
-                for column in columns {
-                    let k = bed.grid.row(j) + column;
-                    if k >= stride && bed.is_touched(*axis, k) {
-                        // A closed face is a wall.
-                        let [open] = bed.open::<1>(*axis, At { row: j, column, k });
-                        out[column] = [if open > 0.0 { velocity(k) } else { 0.0 }, 1.0];
-                        continue;
-                    }
-                    let (mut sum, mut count) = (0.0, 0.0);
-                    for other in around(k, stride).into_iter().filter(|other| is_moved(*other)) {
-                        (sum, count) = (sum + velocity(other), count + 1.0);
-                    }
-                    out[column] = if count > 0.0 { [sum / count, 1.0] } else { [0.0; 2] };
+        for (row, out) in rows.zip(out.each()) {
+            for columns in with_padding(self.pieces, row) {
+                if self.beside.contains(&row) {
+                    in_lanes(columns, DrawRow { work: self, row, out });
+                } else {
+                    out[columns].fill([0.0; 2]);
                 }
             }
+        }
+    }
+}
+
+struct DrawRow<'a> {
+    work: &'a Draw<'a>,
+    row: usize,
+    out: &'a mut [GrainWay],
+}
+
+impl Wide for DrawRow<'_> {
+    #[inline(always)]
+    fn run<const N: usize>(&mut self, column: usize) {
+        let Draw { bed, means, ways, axis, .. } = self.work;
+        let at = At { row: self.row, column, k: bed.grid.row(self.row) + column };
+        let velocity = |k: usize| -> [f32; N] {
+            let (means, ways) = (&means[k..k + N], &ways[k..k + N]);
+            each_lane(|i| means[i][1] + ways[i][0])
+        };
+        let touched = Touched::<N>::new(bed, *axis, at).moved(bed, *axis, at);
+        let (own, open) = (velocity(at.k), bed.open::<N>(*axis, at));
+        let [beside, counts] = touched.mean(at.k, bed.grid.stride, velocity);
+        for (i, out) in self.out[column..column + N].iter_mut().enumerate() {
+            // A closed face is a wall.
+            let own = if open[i] > 0.0 { own[i] } else { 0.0 };
+            let is_touched = touched.own[i] > 0.0;
+            *out = [if is_touched { own } else { beside[i] }, if is_touched | (counts[i] > 0.0) { 1.0 } else { 0.0 }];
         }
     }
 }
