@@ -26,18 +26,20 @@ use super::{
     matter::Warm,
     passes::{Flow, LookAround, Nearby},
     rates::Rates,
+    settle::Settle,
     sorted::Sorted,
+    states::FindStates,
     table::HeatTable,
-    units::ROOM,
     walls::Walls,
     weights::WEIGHT,
 };
 use crate::{
     air::Contact,
     parallel::{Team, WORTH_A_PIECE, cut, spread},
-    simd::{MOST_LANES, rounded},
+    simd::{Lanes, MOST_LANES, Pass},
 };
 use glam::Vec2;
+use std::sync::atomic::{AtomicI64, Ordering};
 
 /// Most steps of a tick.
 const MOST_STEPS: f32 = 8.0;
@@ -72,6 +74,8 @@ pub(super) struct Exchange {
     gained: Vec<i32>,
     /// Cells with lumps that take steps, and those around them.
     stepping: Vec<bool>,
+    /// Whether any of [`MOST_LANES`] lumps that follow each other is in one, or stands in the air; an entry for so many.
+    later: Vec<bool>,
     shore: Shore,
     walls: Walls,
     steps: Steps,
@@ -99,34 +103,29 @@ impl Exchange {
             field.resize(count, 0.0);
         }
         self.gained.resize(count, 0);
-        self.warm_up(lumps, warm.table, team.threads);
+        self.warm_up(lumps, warm.table, 0, team);
         self.look_around(lumps, team);
         self.allow(lumps, warm.domain.size, rates, team);
-        let (steps, cuts) = self.divide(lumps);
+        let (steps, cuts) = self.divide(lumps, team);
         let mut to_air = 0;
         let rates = rates.over(steps);
         for step in 0..steps as u32 {
             if step > 0 {
-                self.warm_up(lumps, warm.table, team.threads);
+                self.warm_up(lumps, warm.table, step, team);
             }
             let more = if step == 0 { steps - 1.0 } else { -1.0 };
             self.flow(lumps, &rates, more, team);
-            to_air += self.settle(lumps, &rates, more);
+            to_air += self.settle(lumps, rates.air, more, team);
         }
         Flowed { cuts, to_air }
     }
 
-    /// Finds how warm the lumps are.
-    fn warm_up(&mut self, lumps: &Lumps, table: &HeatTable, threads: usize) {
+    /// Finds how warm the lumps are; in a later step those that may have changed.
+    fn warm_up(&mut self, lumps: &Lumps, table: &HeatTable, step: u32, team: Team) {
         let Lumps { heat, element, present, grid, .. } = lumps;
-        let slopes = &grid.slopes;
-        spread([&mut self.kelvin[..], &mut self.conduction], WORTH_A_PIECE, threads, &|first, [kelvin, conduction]| {
-            let lumps = heat[first..].iter().zip(&element[first..]);
-            for ((kelvin, conduction), (heat, element)) in kelvin.iter_mut().zip(conduction.iter_mut()).zip(lumps) {
-                (*kelvin, *conduction) = slopes.state(table, *element, *heat);
-            }
-            let sites = present.get(first..).unwrap_or_default();
-            conduction.iter_mut().zip(sites).for_each(|(conduction, present)| *conduction *= present);
+        let (slopes, changes) = (&grid.slopes, if step == 0 { &[][..] } else { &self.later });
+        spread([&mut self.kelvin[..], &mut self.conduction], WORTH_A_PIECE, team.threads, &|base, out| {
+            team.instructions.run(FindStates { table, slopes, heat, element, present, changes, base, out });
         });
     }
 
@@ -175,8 +174,8 @@ impl Exchange {
 
     /// Finds how many steps the tick takes, who takes them, and how much of what each asks for in a step it can take. How many can't
     /// take all is given, too.
-    fn divide(&mut self, lumps: &Lumps) -> (f32, u64) {
-        let Self { allowance, once, stepping, .. } = self;
+    fn divide(&mut self, lumps: &Lumps, team: Team) -> (f32, u64) {
+        let Self { allowance, once, surface, stepping, later, .. } = self;
         // What exchanges nothing in the first step must not in a later one, either: it has no allowance.
         let least = least(allowance);
         if least >= 1.0 {
@@ -185,21 +184,29 @@ impl Exchange {
         let steps = (1.0 / least.max(1.0 / MOST_STEPS)).ceil();
         stepping.clear();
         stepping.resize(lumps.grid.len(), false);
-        let of_lumps = lumps.cell.iter().chain(&lumps.moving.cell);
-        let mut last = None;
-        allowance.iter().zip(of_lumps).for_each(|(allowance, cell)| {
-            // Those of a cell follow each other.
-            if *allowance > 0.0 && *allowance < 1.0 && last != Some(*cell) {
-                lumps.grid.mark_around(*cell as usize, stepping);
-                last = Some(*cell);
+        let cell = |k: usize| lumps.cell_of(k);
+        for (first, allowance) in (0..).step_by(MOST_LANES).zip(allowance.chunks(MOST_LANES)) {
+            let is_slow = |allowance: f32| (allowance > 0.0) & (allowance < 1.0);
+            if !allowance.iter().fold(false, |any, allowance| any | is_slow(*allowance)) {
+                continue;
             }
-        });
-        let mut cuts = 0;
-        for (allowance, once) in allowance.iter_mut().zip(once) {
-            *once = if *allowance == 1.0 { 1.0 } else { 0.0 };
-            *allowance = (*allowance * steps).min(1.0);
-            cuts += u64::from(*allowance > 0.0 && *allowance < 1.0);
+            let mut last = None;
+            for (k, _) in (first..).zip(allowance).filter(|(_, allowance)| is_slow(**allowance)) {
+                // Those of a cell follow each other.
+                if last != Some(cell(k)) {
+                    lumps.grid.mark_around(cell(k), stepping);
+                    last = Some(cell(k));
+                }
+            }
         }
+        // All that is slow, and all that exchanges with it, is in such a cell; of what stands in the air the air asks how warm it is.
+        later.clear();
+        later.extend((0..lumps.len()).step_by(MOST_LANES).map(|first| {
+            let end = (first + MOST_LANES).min(lumps.len());
+            (first..end).any(|k| surface[k] > 0.0 || stepping[cell(k)])
+        }));
+        let mut cuts = 0;
+        team.instructions.run(Divide { steps, allowance, once, cuts: &mut cuts });
         (steps, cuts)
     }
 
@@ -239,20 +246,14 @@ impl Exchange {
     }
 
     /// Gives the lumps what they gain in a step, and the air what it takes of them. What that is together is given, quanta.
-    fn settle(&self, lumps: &mut Lumps, rates: &Rates, more: f32) -> i64 {
-        let Self { kelvin, once, surface, held, gained, .. } = self;
-        let mut to_air = 0;
-        for (k, heat) in lumps.heat.iter_mut().enumerate() {
-            let mut gain = gained[k];
-            if surface[k] > 0.0 {
-                let open = rates.air * (1.0 + more * once[k]) * surface[k];
-                let given = rounded(open / (1.0 + open / held[k]) * (kelvin[k] - ROOM));
-                gain = gain.saturating_sub(given);
-                to_air += i64::from(given);
-            }
-            *heat = heat.saturating_add(gain);
-        }
-        to_air
+    fn settle(&self, lumps: &mut Lumps, air: f32, more: f32, team: Team) -> i64 {
+        let Self { kelvin, once, surface, held, gained, later, .. } = self;
+        let (to_air, changes) = (&AtomicI64::new(0), if more < 0.0 { &later[..] } else { &[] });
+        spread([&mut lumps.heat[..]], WORTH_A_PIECE, team.threads, &|base, [heat]| {
+            let work = Settle { kelvin, once, surface, held, gained, air, more, changes, base, heat, to_air };
+            team.instructions.run(work);
+        });
+        to_air.load(Ordering::Relaxed)
     }
 
     /// The lumps that stood in the air in the last tick, with what the air gets of each for each K and length d of surface.
@@ -265,9 +266,9 @@ impl Exchange {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        let Self { kelvin, conduction, allowance, once, surface, held, gained, stepping, shore, .. } = self;
+        let Self { kelvin, conduction, allowance, once, surface, held, gained, stepping, later, shore, .. } = self;
         let floats = [kelvin, conduction, allowance, once, surface, held].map(Vec::capacity).iter().sum::<usize>();
-        4 * (floats + gained.capacity()) + stepping.capacity() + shore.memory()
+        4 * (floats + gained.capacity()) + stepping.capacity() + later.capacity() + shore.memory()
     }
 }
 
@@ -288,6 +289,31 @@ impl Shore {
         let Self { kelvin, conduction, allowance, once, found: [whole, through], gained } = self;
         let floats = [kelvin, conduction, allowance, once, whole, through].map(Vec::capacity).iter().sum::<usize>();
         4 * (floats + gained.capacity())
+    }
+}
+
+/// Says who takes steps, and how much of what each asks for in one it can take; counts those that can't take all.
+struct Divide<'a> {
+    steps: f32,
+    allowance: &'a mut [f32],
+    once: &'a mut [f32],
+    cuts: &'a mut u64,
+}
+
+impl Pass for Divide<'_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { steps, allowance, once, cuts } = self;
+        for (allowance, once) in allowance.chunks_mut(MOST_LANES).zip(once.chunks_mut(MOST_LANES)) {
+            let mut cut = 0_u32;
+            for (allowance, once) in allowance.iter_mut().zip(once) {
+                *once = if *allowance == 1.0 { 1.0 } else { 0.0 };
+                let share = *allowance * steps;
+                *allowance = if share < 1.0 { share } else { 1.0 };
+                cut += u32::from((share > 0.0) & (share < 1.0));
+            }
+            *cuts += u64::from(cut);
+        }
     }
 }
 

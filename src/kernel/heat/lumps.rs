@@ -116,6 +116,15 @@ impl Lumps {
         shore.sort(grid.len(), near.iter().filter_map(lump));
     }
 
+    /// The cell of a lump.
+    #[inline(always)]
+    pub fn cell_of(&self, k: usize) -> usize {
+        match k.checked_sub(self.sites.len()) {
+            None => self.cell[k] as usize,
+            Some(k) => self.moving.cell[k] as usize,
+        }
+    }
+
     /// Where a lump is, d; `None` if it is a blank piece's site.
     pub fn position(&self, k: usize) -> Option<Vec2> {
         match k.checked_sub(self.sites.len()) {

@@ -5,7 +5,7 @@ use super::{
     table::HeatTable,
     units::{HOTTEST, QUANTUM, ROOM},
 };
-use crate::element::ElementId;
+use crate::{element::ElementId, simd::MOST_LANES};
 
 /// An element between its changes.
 #[derive(Clone, Copy, Debug)]
@@ -18,11 +18,26 @@ pub(super) struct Slope {
     /// K.
     per_quantum: f32,
     /// √k′, √(W/mK).
-    conduction: f32,
+    pub conduction: f32,
     /// Heat that makes it a degree warmer, at least, quanta.
     pub held: f32,
     /// How many times as much its surface gives to the air as that of liquids and solids does.
     pub openness: f32,
+}
+
+impl Slope {
+    /// Whether no change has begun at a heat.
+    #[inline(always)]
+    fn has(&self, heat: i32) -> bool {
+        (self.below < heat) & (heat < self.above)
+    }
+
+    /// Temperature at a heat of it, K.
+    #[inline(always)]
+    pub fn temperature(&self, heat: i32) -> f32 {
+        let kelvin = ROOM + heat.saturating_sub(self.base) as f32 * self.per_quantum;
+        kelvin.clamp(0.0, HOTTEST)
+    }
 }
 
 /// Those of all elements.
@@ -53,13 +68,19 @@ impl Slopes {
         &self.0[element.index()]
     }
 
+    /// Whether no change of an element has begun at any of some heats.
+    #[inline(always)]
+    pub fn are_on(&self, element: ElementId, heats: &[i32; MOST_LANES]) -> bool {
+        let slope = self.of(element);
+        heats.iter().fold(true, |all, heat| all & slope.has(*heat))
+    }
+
     /// Temperature (K) and √k′ (√(W/mK)) of a lump by its heat, as its curve has them.
     #[inline(always)]
     pub fn state(&self, table: &HeatTable, element: ElementId, heat: i32) -> (f32, f32) {
         let slope = self.of(element);
-        if slope.below < heat && heat < slope.above {
-            let kelvin = ROOM + heat.saturating_sub(slope.base) as f32 * slope.per_quantum;
-            return (kelvin.clamp(0.0, HOTTEST), slope.conduction);
+        if slope.has(heat) {
+            return (slope.temperature(heat), slope.conduction);
         }
         let curve = table.curve(element);
         (curve.temperature(heat).clamp(0.0, HOTTEST), curve.conduction(heat))

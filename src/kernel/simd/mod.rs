@@ -13,6 +13,6 @@ mod set;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use lanes::{Array, Lanes, MOST_LANES, each_lane, lane_starts, padded, rounded, truncated, whole_below};
+pub(crate) use lanes::{Array, Lanes, MOST_LANES, each_lane, lane_starts, padded, truncated, whole_below};
 pub use set::InstructionSet;
 pub(crate) use set::Pass;
