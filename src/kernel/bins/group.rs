@@ -2,7 +2,7 @@
 
 use crate::{
     parallel::{Parts, cut, fork, piece},
-    simd::{Lanes, MOST_LANES, each_lane},
+    simd::{Lanes, MOST_LANES},
 };
 use std::ops::Range;
 
@@ -66,7 +66,7 @@ impl Group {
         if self.lanes == ALL_LANES {
             return new;
         }
-        let chosen: [f32; MOST_LANES] = each_lane(|lane| f32::from(self.lanes >> lane & 1));
+        let chosen: [f32; MOST_LANES] = std::array::from_fn(|lane| f32::from(self.lanes >> lane & 1));
         L::load(&chosen).if_less(L::splat(0.5), old(), new)
     }
 }

@@ -1,15 +1,13 @@
 //! What the liquid does around a place, as the last solve left it.
 
-use crate::{
-    predictor::{
-        grid::MacGrid,
-        rock::ClosedFaces,
-        stencil::{Axis, LANES, Stencils},
-        transfer::Faces,
-    },
-    simd::each_lane,
+use crate::predictor::{
+    grid::MacGrid,
+    rock::ClosedFaces,
+    stencil::{Axis, LANES, Stencils},
+    transfer::Faces,
 };
 use glam::Vec2;
+use std::array::from_fn;
 
 /// The grid's velocity after the solve: on faces that particles reach, their mean velocity and what pressure changed of it. On
 /// others nothing is known of it.
@@ -88,7 +86,7 @@ impl<'a> Flow<'a> {
         }
         // Beyond the rows and columns that particles reached lies what is left from before.
         let (columns, stencils) = (grid.padded(area), Stencils::new(grid, x, y, axis));
-        let is_reached: [bool; LANES] = each_lane(|lane| {
+        let is_reached: [bool; LANES] = from_fn(|lane| {
             let (column, row) = (axis.column(grid, x[lane]).0 as usize, axis.row(grid, y[lane]).0 as usize);
             let is_among = (columns.start <= column) & (column + 1 < columns.end);
             is_among & (reached.start <= row) & (row + 1 < reached.end)
@@ -107,6 +105,6 @@ impl<'a> Flow<'a> {
                 difference[lane] += if count > 0.0 { weight * (mean + gained[lane] - velocity[lane]) } else { 0.0 };
             }
         }
-        each_lane(|lane| if is_reached[lane] { difference[lane] } else { 0.0 })
+        from_fn(|lane| if is_reached[lane] { difference[lane] } else { 0.0 })
     }
 }

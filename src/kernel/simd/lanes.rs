@@ -67,7 +67,7 @@ pub(crate) struct Array<const N: usize>([f32; N]);
 impl<const N: usize> Array<N> {
     #[inline(always)]
     fn zip(self, other: Self, operation: impl Fn(f32, f32) -> f32) -> Self {
-        Self(each_lane(|lane| operation(self.0[lane], other.0[lane])))
+        Self(std::array::from_fn(|lane| operation(self.0[lane], other.0[lane])))
     }
 }
 
@@ -148,12 +148,12 @@ impl<const N: usize> Lanes for Array<N> {
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self(each_lane(|lane| self.0[lane].sqrt()))
+        Self(std::array::from_fn(|lane| self.0[lane].sqrt()))
     }
 
     #[inline(always)]
     fn if_less(self, other: Self, yes: Self, no: Self) -> Self {
-        Self(each_lane(|lane| if self.0[lane] < other.0[lane] { yes.0[lane] } else { no.0[lane] }))
+        Self(std::array::from_fn(|lane| if self.0[lane] < other.0[lane] { yes.0[lane] } else { no.0[lane] }))
     }
 
     #[inline(always)]
@@ -163,7 +163,7 @@ impl<const N: usize> Lanes for Array<N> {
 
     #[inline(always)]
     fn add_rounded(self, sums: Self::Sums) -> Self::Sums {
-        each_lane(|lane| sums[lane].wrapping_add(rounded(self.0[lane])))
+        std::array::from_fn(|lane| sums[lane].wrapping_add(rounded(self.0[lane])))
     }
 
     #[inline(always)]

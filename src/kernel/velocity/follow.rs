@@ -1,10 +1,8 @@
 //! What of the corrections ends motion where the pressure predictor ran ([`update_velocities`](super::update_velocities)).
 
-use crate::{
-    predictor::Flow,
-    simd::{MOST_LANES, each_lane},
-};
+use crate::{predictor::Flow, simd::MOST_LANES};
 use glam::Vec2;
+use std::array::from_fn;
 
 /// How far liquid is too dense, as a share of the density aimed at, from which on it counts as pressed together where the
 /// pressure predictor ran, and where it does so in full: shared by the substeps of a quality, as what iterating goes by is.
@@ -53,7 +51,7 @@ pub(super) fn follow(
     let (mut left_x, mut left_y) = ([0.0; BLOCK], [0.0; BLOCK]);
     for chosen in chosen[..count].chunks(LANES) {
         // Lanes that are left over do what the last one does.
-        let of = |numbers: &[f32]| each_lane(|lane| numbers[usize::from(chosen[lane.min(chosen.len() - 1)])]);
+        let of = |numbers: &[f32]| from_fn(|lane| numbers[usize::from(chosen[lane.min(chosen.len() - 1)])]);
         let matter = Pressed { density: of(density), at: [of(x), of(y)], velocity: [of(vx), of(vy)] };
         let change = [of(change_x), of(change_y)];
         let ends = matter.ends(flow, (CROWDED * aim, [from, to]), is_near_dry_wall, change);
@@ -87,9 +85,9 @@ impl Pressed {
     ) -> Each {
         let Self { density, at: [x, y], velocity: [vx, vy] } = self;
         let [change_x, change_y] = &change;
-        let length: Each = each_lane(|i| (change_x[i] * change_x[i] + change_y[i] * change_y[i]).sqrt());
+        let length: Each = from_fn(|i| (change_x[i] * change_x[i] + change_y[i] * change_y[i]).sqrt());
         // How much of the correction may end of the motion, and what runs against it.
-        let held: Each = each_lane(|i| {
+        let held: Each = from_fn(|i| {
             if density[i] > crowded {
                 1.0
             } else if is_near_dry_wall && length[i] > 0.0 {
@@ -100,7 +98,7 @@ impl Pressed {
         });
         let [beside_x, beside_y] = flow.beside(&self.at, &self.velocity);
         let per_density = 1.0 / (to - from);
-        each_lane(|i| {
+        from_fn(|i| {
             let along = |x: f32, y: f32| (x * change_x[i] + y * change_y[i]) / length[i];
             let least = |a: f32, b: f32| if a < b { a } else { b };
             let most = |a: f32, b: f32| if a > b { a } else { b };
@@ -126,9 +124,9 @@ fn range(numbers: &[f32]) -> [f32; 2] {
 /// One of all numbers: in lanes first, which one number after the other would not be.
 #[inline(always)]
 fn folded(numbers: &[f32; BLOCK], one: impl Fn(f32, f32) -> f32) -> f32 {
-    let mut lanes: Each = each_lane(|lane| numbers[lane]);
+    let mut lanes: Each = from_fn(|lane| numbers[lane]);
     for others in numbers[LANES..].as_chunks::<LANES>().0 {
-        lanes = each_lane(|lane| one(lanes[lane], others[lane]));
+        lanes = from_fn(|lane| one(lanes[lane], others[lane]));
     }
     let mut width = LANES / 2;
     while width > 0 {
