@@ -1,47 +1,36 @@
 //! Where heat may flow: cells of the exchange's reach, and how warm it is in each.
 
 use super::{matter::Warm, rates::Rates, slopes::Slopes, units::ROOM, weights::REACH};
-use crate::{element::ElementId, simd::each_lane, solids::Stride};
+use crate::{element::ElementId, solids::Stride};
 use glam::Vec2;
 use std::ops::Range;
 
-/// How warm it is in a cell: the coldest of its lumps (K), less the hottest (K), and less the highest √k′ (√(W/mK)), of each of
-/// which the least counts, so that all join at once.
+/// How warm it is in a cell.
 #[derive(Clone, Copy, Debug)]
-struct Span([f32; 4]);
+struct Span {
+    coldest: f32,
+    hottest: f32,
+    /// Highest √k′, √(W/mK).
+    conduction: f32,
+}
 
-/// That of a cell without lumps.
-const NOTHING: Span = Span([f32::MAX, f32::MAX, 0.0, 0.0]);
+const NOTHING: Span = Span { coldest: f32::MAX, hottest: f32::MIN, conduction: 0.0 };
 
 impl Span {
     /// Of a lump of this temperature (K) and √k′ (√(W/mK)).
     #[inline(always)]
     fn of_lump((kelvin, conduction): (f32, f32)) -> Self {
-        Self([kelvin, -kelvin, -conduction, 0.0])
+        Self { coldest: kelvin, hottest: kelvin, conduction }
     }
 
     #[inline(always)]
-    fn join(&mut self, Self(other): Self) {
-        let Self(own) = *self;
-        // All are numbers: `min` would ask whether they are.
-        *self = Self(each_lane(|of| if other[of] < own[of] { other[of] } else { own[of] }));
-    }
-
-    #[inline(always)]
-    fn is_empty(self) -> bool {
-        self.0[0] == f32::MAX
-    }
-
-    /// How far its temperatures are from one another, K.
-    #[inline(always)]
-    fn difference(self) -> f32 {
-        -self.0[1] - self.0[0]
-    }
-
-    /// Highest √k′, √(W/mK).
-    #[inline(always)]
-    fn conduction(self) -> f32 {
-        -self.0[2]
+    fn join(&mut self, other: Self) {
+        // All are numbers: `min` and `max` would ask whether they are.
+        *self = Self {
+            coldest: if other.coldest < self.coldest { other.coldest } else { self.coldest },
+            hottest: if other.hottest > self.hottest { other.hottest } else { self.hottest },
+            conduction: if other.conduction > self.conduction { other.conduction } else { self.conduction },
+        };
     }
 }
 
@@ -106,16 +95,10 @@ impl HeatGrid {
         columns.iter().map(move |column| row + *column as usize)
     }
 
-    /// The same, each once.
-    #[inline(always)]
-    fn cells_of(&self, stride: &Stride) -> Range<usize> {
-        let (first, last) = (self.of_stride(stride).next(), self.of_stride(stride).next_back());
-        first.zip(last).map_or(0..0, |(first, last)| first..last + 1)
-    }
-
     /// Whether lumps of a stride are needed.
     pub fn needs(&self, stride: &Stride) -> bool {
-        self.needed[self.cells_of(stride)].contains(&true)
+        let (first, last) = (self.of_stride(stride).next(), self.of_stride(stride).next_back());
+        first.zip(last).is_some_and(|(first, last)| self.needed[first..=last].contains(&true))
     }
 
     /// Finds where anything may flow.
@@ -148,26 +131,23 @@ impl HeatGrid {
             of_particles.push(cell as u32);
             spans[cell].join(span_of(particles.element[i], particles.heat_of(i)));
         }
-        // Of rock that is like the last there is nothing to find.
-        let (mut like, mut last) = (None, NOTHING);
-        let mut of_rock = |element: ElementId, heat: i32| {
-            if like != Some((element, heat)) {
-                (like, last) = (Some((element, heat)), span_of(element, heat));
-            }
-            last
-        };
+        // What follows each other in a cell is joined to it at once, and rock that is like the last by itself adds nothing.
+        let (mut last, mut joined, mut like) = (0, NOTHING, None);
         solids.strides().for_each(|stride| {
-            if let Some((element, heat)) = stride.of_all() {
-                let span = of_rock(element, heat);
-                self.cells_of(&stride).for_each(|cell| spans[cell].join(span));
-                return;
-            }
             for ((k, element), cell) in stride.sites().zip(self.of_stride(&stride)) {
-                if let Some(element) = element {
-                    spans[cell].join(of_rock(element, stride.heat(k)));
+                let Some(element) = element else { continue };
+                if cell != last {
+                    spans[last].join(joined);
+                    (last, joined, like) = (cell, NOTHING, None);
+                }
+                let heat = stride.heat(k);
+                if like != Some((element, heat)) {
+                    joined.join(span_of(element, heat));
+                    like = Some((element, heat));
                 }
             }
         });
+        spans[last].join(joined);
         (self.spans, self.of_particles, self.slopes) = (spans, of_particles, slopes);
     }
 
@@ -187,13 +167,13 @@ impl HeatGrid {
         for row in 1..*rows - 1 {
             for column in 1..*stride - 1 {
                 let cell = row * *stride + column;
-                if spans[cell].is_empty() {
+                if spans[cell].conduction == 0.0 && spans[cell].coldest > spans[cell].hottest {
                     continue;
                 }
-                let mut near = Span::of_lump((ROOM, 0.0));
+                let mut near = Span { coldest: ROOM, hottest: ROOM, conduction: 0.0 };
                 let around = [cell - *stride, cell, cell + *stride];
                 around.iter().for_each(|row| near.join(beside[*row]));
-                if rates.may_flow(near.difference(), near.conduction()) {
+                if rates.may_flow(near.hottest - near.coldest, near.conduction) {
                     flows[cell] = true;
                     around.into_iter().for_each(|row| needed[row - 1..row + 2].fill(true));
                 }

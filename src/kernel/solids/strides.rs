@@ -32,15 +32,6 @@ impl<'a> Stride<'a> {
         self.elements.iter().map(element).enumerate()
     }
 
-    /// Element and heat (quanta) of its rock, if it is whole, all rock and all alike.
-    #[inline(always)]
-    pub fn of_all(&self) -> Option<(ElementId, i32)> {
-        let elements = self.elements.first_chunk::<STRIDE>()?;
-        let heats = self.heats.first_chunk::<STRIDE>().unwrap_or(&[0; STRIDE]);
-        let are_alike = *elements == [elements[0]; STRIDE] && *heats == [heats[0]; STRIDE];
-        (are_alike && elements[0] != EMPTY).then_some((ElementId(elements[0]), heats[0]))
-    }
-
     /// Heat in one of the cells, quanta; 0 where is no rock.
     #[inline(always)]
     pub fn heat(&self, k: usize) -> i32 {
@@ -104,24 +95,5 @@ mod tests {
         assert_eq!(found, [(0, 16, 0, 0), (96, 4, 5, -6)]);
         assert_eq!([99, 96, 3].map(|x| solids.heat(IVec2::new(x, 7))), [-6, 5, 0]);
         assert_eq!(solids.heats().iter().filter(|heat| **heat != 0).count(), 2);
-    }
-
-    #[test]
-    fn only_whole_strides_of_one_element_and_heat_are_alike() {
-        let row = |y: i32, cells: std::ops::Range<i32>| cells.map(move |x| (x, y)).collect::<Vec<_>>();
-        let alike = |solids: &Solids| solids.strides().map(|stride| stride.of_all()).collect::<Vec<_>>();
-        let mut solids = with_rock(&[row(3, 16..32), row(5, 16..31), row(7, 84..100)].concat());
-        let rock = Some((ElementId(0), 0));
-        // One of them lacks a cell, and the last stride of a row is shorter.
-        assert_eq!(alike(&solids), [rock, None, None, None]);
-        solids.set_heats(IVec2::new(16, 3), &[7; STRIDE]);
-        assert_eq!(alike(&solids)[0], Some((ElementId(0), 7)));
-        let mut heats = [7; STRIDE];
-        heats[9] = 8;
-        solids.set_heats(IVec2::new(16, 3), &heats);
-        assert_eq!(alike(&solids)[0], None);
-        solids.set_heats(IVec2::new(16, 3), &[7; STRIDE]);
-        assert!(solids.remove(IVec2::new(20, 3)) && solids.insert(IVec2::new(20, 3), ElementId(1), 99));
-        assert_eq!(alike(&solids)[0], None);
     }
 }
