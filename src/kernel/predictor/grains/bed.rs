@@ -2,7 +2,7 @@
 
 use crate::{
     parallel::Team,
-    predictor::{conjugate::Conjugate, grains::cells::At, grid::MacGrid, rock::ClosedFaces, stencil::Axis, wide::load},
+    predictor::{conjugate::Conjugate, grid::MacGrid, rock::ClosedFaces, stencil::Axis, wide::load},
     simd::each_lane,
 };
 use glam::Vec2;
@@ -10,6 +10,15 @@ use std::ops::Range;
 
 /// A cell with more rock than this is a wall.
 const WALL: f32 = 0.5;
+
+/// The first of some cells side by side.
+#[derive(Clone, Copy)]
+pub(in crate::predictor) struct At {
+    pub row: usize,
+    pub column: usize,
+    /// Its index.
+    pub k: usize,
+}
 
 /// The grid where it has pressure.
 pub(in crate::predictor) struct Bed<'a> {
@@ -59,7 +68,7 @@ impl<'a> Bed<'a> {
 
     /// Open shares of faces side by side.
     #[inline(always)]
-    pub(super) fn open<const N: usize>(&self, axis: Axis, At { row, column, .. }: At) -> [f32; N] {
+    pub fn open<const N: usize>(&self, axis: Axis, At { row, column, .. }: At) -> [f32; N] {
         let ClosedFaces { open_u, open_v, .. } = self.closed;
         load(if axis == Axis::U { open_u } else { open_v }, self.closed.row(row) + column)
     }

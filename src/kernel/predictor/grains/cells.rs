@@ -3,21 +3,15 @@
 use crate::{
     parallel::{Band, Sweep, cut, sweep},
     predictor::{
-        grains::{bed::Bed, near::Near},
+        grains::{
+            bed::{At, Bed},
+            near::Near,
+        },
         level::WORTH_A_PIECE,
         wide::{Wide, in_lanes},
     },
 };
 use std::ops::Range;
-
-/// The first of some cells side by side.
-#[derive(Clone, Copy)]
-pub(super) struct At {
-    pub row: usize,
-    pub column: usize,
-    /// Its index.
-    pub k: usize,
-}
 
 /// A pass that writes some fields.
 pub(super) trait Cells<const FIELDS: usize>: Sync {

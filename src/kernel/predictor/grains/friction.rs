@@ -12,8 +12,8 @@ use crate::{
     parallel::{Rows, Sweep, sweep},
     predictor::{
         grains::{
-            bed::Bed,
-            cells::{At, find},
+            bed::{At, Bed},
+            cells::find,
             fields::{Fields, both},
             iteration::{Hold, Limit, Pull, SetOut},
             limits::{FindLimits, FindPressures},

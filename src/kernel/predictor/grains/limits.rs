@@ -4,8 +4,8 @@ use crate::{
     predictor::{
         equation::steepness,
         grains::{
-            bed::{Bed, is_wall},
-            cells::{At, Cells},
+            bed::{At, Bed, is_wall},
+            cells::Cells,
             fields::Fields,
             spread::Spread,
         },

@@ -8,8 +8,8 @@
 use crate::{
     predictor::{
         grains::{
-            bed::Bed,
-            cells::{At, Cells, find},
+            bed::{At, Bed},
+            cells::{Cells, find},
             fields::Fields,
             near::Near,
             spread::Spread,

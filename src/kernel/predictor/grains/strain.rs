@@ -3,8 +3,8 @@
 use crate::{
     predictor::{
         grains::{
-            bed::Bed,
-            cells::{At, Cells},
+            bed::{At, Bed},
+            cells::Cells,
             fields::Fields,
         },
         wide::{load, store},

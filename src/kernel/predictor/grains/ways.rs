@@ -3,7 +3,11 @@
 use crate::{
     parallel::{Rows, Sweep, sweep},
     predictor::{
-        grains::{bed::Bed, cells::At, friction::Friction, near::Near},
+        grains::{
+            bed::{At, Bed},
+            friction::Friction,
+            near::Near,
+        },
         level::WORTH_A_PIECE,
         pieces::Pieces,
         stencil::Axis,
