@@ -21,7 +21,7 @@
 //! outgrows the sound: from some 30 atmospheres on air at rest is unstable at a Courant number of .7, and storms there
 //! never end.
 
-use crate::simd::{Array, InstructionSet, Lanes, Pass, lane_starts};
+use crate::simd::{Array, InstructionSet, Lanes, MOST_LANES, Pass, lane_starts};
 
 /// Pressure from which on sound gets no faster, in pressures of the surroundings. Changing this affects strong air only:
 /// how fast its sound is and what its steps cost.
@@ -71,10 +71,22 @@ impl Pass for HeadsPass<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Self { pressure, warmth, heads } = self;
-        for i in lane_starts::<L>(pressure.len()) {
+        let pressing = |i: usize| {
             let p = L::of(pressure, i);
-            let e = warmth.map_or(p, |warmth| p + p * L::of(warmth, i));
-            head_of(e).put(heads, i);
+            warmth.map_or(p, |warmth| p + p * L::of(warmth, i))
+        };
+        let mut highest = L::splat(0.0);
+        for i in lane_starts::<L>(pressure.len()) {
+            highest = highest.max(pressing(i));
+            pressing(i).put(heads, i);
+        }
+        // A row without stiff air, as most are, is done.
+        let mut lanes = [0.0; MOST_LANES];
+        highest.store(&mut lanes);
+        if lanes.iter().any(|highest| *highest > STIFF) {
+            for i in lane_starts::<L>(pressure.len()) {
+                head_of(pressing(i)).put(heads, i);
+            }
         }
     }
 }
