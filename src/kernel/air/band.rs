@@ -146,11 +146,11 @@ impl BandPass<'_> {
             stride,
         };
         let [target, velocity_x, velocity_y] = &mut self.target;
-        let mut peaks = self.push.run::<L>(from, [&mut velocity_x[out.clone()], &mut velocity_y[out.clone()]]);
+        let to = [&mut target[out.clone()], &mut velocity_x[out.clone()], &mut velocity_y[out]];
+        let mut peaks = self.push.run::<L>(from, to);
         if self.source.warmth.is_some() {
             peaks.pressure = highest(&here[1..width - 1], &warmth[1][1..width - 1]);
         }
-        target[out][1..width - 1].copy_from_slice(&here[1..width - 1]);
         self.band.peaks = self.band.peaks.max(peaks);
     }
 }

@@ -4,6 +4,10 @@ use super::pressure::VACUUM;
 use crate::simd::{Lanes, lane_starts};
 use glam::Vec2;
 
+/// Faint warmth that is none: far below f32's resolution of the pressure that it would cause, far above denormals, even when
+/// shares multiply it.
+const COLD: f32 = 1.0e-9;
+
 /// What a substep does to the velocity of warm air.
 #[derive(Clone, Copy)]
 pub(super) struct Lift {
@@ -31,7 +35,8 @@ pub(super) fn share_out<L: Lanes>(carried: &[f32], mass: &[f32], warmth: &mut [f
     for i in lane_starts::<L>(n) {
         let (mass, zero) = (L::of(mass, i), L::splat(0.0));
         let shared = L::of(carried, i) / mass;
-        mass.if_less(L::splat(VACUUM), zero, shared).put(warmth, i);
+        let shared = mass.if_less(L::splat(VACUUM), zero, shared);
+        shared.abs().if_less(L::splat(COLD), zero, shared).put(warmth, i);
     }
     (warmth[0], warmth[n - 1]) = (0.0, 0.0);
 }

@@ -29,9 +29,9 @@ use super::{law, source::FACE_FILTER};
 use crate::simd::{Lanes, lane_starts};
 use std::hint::black_box;
 
-/// Stands in the division of momentum by mass, so that a cell without mass has no velocity and none a division by 0.
-/// Far below a rounding of any mass that matters.
-pub(super) const VACUUM: f32 = 1.0e-30;
+/// Pressure below which a cell is empty: it has no mass and no velocity. Far below a rounding of any mass that matters, far
+/// above denormals (which cost a hundred times the time), even when shares multiply it.
+pub(super) const VACUUM: f32 = 1.0e-22;
 
 /// Speed, as a part of the speed of sound, below which a velocity is 0: far below f32's resolution of the pressure that
 /// would cause it, far above denormals (which cost a hundred times the time), even when shares multiply it.
@@ -88,9 +88,9 @@ pub(super) struct Pushed<'a> {
 }
 
 impl Push {
-    /// Writes the velocities of a row (with the ring) and returns its peaks.
+    /// Writes pressures and velocities of a row (with the ring) and returns its peaks.
     #[inline(always)]
-    pub(super) fn run<L: Lanes>(&self, from: Pushed, [x, y]: [&mut [f32]; 2]) -> Peaks {
+    pub(super) fn run<L: Lanes>(&self, from: Pushed, [pressure, x, y]: [&mut [f32]; 3]) -> Peaks {
         let n = from.momentum_x.len() - 2;
         let (start, stride) = (from.start + 1, from.stride);
         let [below, row, above] = from.heads;
@@ -101,20 +101,21 @@ impl Push {
         let open_below = &from.open[1][start..start + n];
         let open_above = &from.open[1][start + stride..start + stride + n];
         let (momentum_x, momentum_y) = (&from.momentum_x[1..][..n], &from.momentum_y[1..][..n]);
-        let (velocity_x, velocity_y) = (&mut x[1..][..n], &mut y[1..][..n]);
-        let (gain, one) = (L::splat(self.gain), L::splat(1.0));
+        let (kept, velocity_x, velocity_y) = (&mut pressure[1..][..n], &mut x[1..][..n], &mut y[1..][..n]);
+        let (gain, zero, one, vacuum) = (L::splat(self.gain), L::splat(0.0), L::splat(1.0), L::splat(VACUUM));
         for i in lane_starts::<L>(n) {
             let (p, h) = (L::of(here, i), L::of(level, i));
             let (left, right) = (L::of(left, i), L::of(right, i));
             let (below, above) = (L::of(below, i), L::of(above, i));
             let (open_left, open_right) = (L::of(open_left, i), L::of(open_right, i));
             let (open_below, open_above) = (L::of(open_below, i), L::of(open_above, i));
-            let per_mass = one / (p + L::splat(VACUUM));
+            let per_mass = p.if_less(vacuum, zero, one / p);
             let rise_x = open_right * (right - h) + open_left * (h - left);
             let rise_y = open_above * (above - h) + open_below * (h - below);
             let u = L::of(momentum_x, i) * per_mass - gain * rise_x;
             let v = L::of(momentum_y, i) * per_mass - gain * rise_y;
             let (u, v) = (self.settle(u, open_left, open_right), self.settle(v, open_below, open_above));
+            p.if_less(vacuum, zero, p).put(kept, i);
             u.put(velocity_x, i);
             v.put(velocity_y, i);
         }

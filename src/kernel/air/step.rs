@@ -205,10 +205,12 @@ impl Air {
 
     fn clamp_speeds(&mut self, limit: f32) -> u64 {
         let mut clamps = 0;
-        for velocity in self.velocity_x.iter_mut().chain(&mut self.velocity_y) {
-            if velocity.abs() > limit {
-                *velocity = limit.copysign(*velocity);
-                clamps += 1;
+        for velocities in [&mut self.velocity_x, &mut self.velocity_y] {
+            // Without a branch, so that the compiler uses lanes.
+            for velocity in velocities {
+                let fast = velocity.abs() > limit;
+                *velocity = if fast { limit.copysign(*velocity) } else { *velocity };
+                clamps += u64::from(fast);
             }
         }
         clamps

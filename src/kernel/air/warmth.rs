@@ -30,9 +30,6 @@ pub(super) const LOSS_SECONDS: f32 = 10.0;
 /// Warmth from which on air that sleeps is woken, 10 K. Changing this affects what convection costs where all is lukewarm.
 const ROUSING_WARMTH: f32 = 0.03;
 
-/// Faint warmth that is none: far below f32's resolution of the pressure that it would cause, far above denormals.
-const COLD: f32 = 1.0e-9;
-
 /// Warmth, 0.3 K, that is none in a tile or a box where there is no more. Changing this affects when air that was warm falls asleep.
 pub(super) const QUIET_WARMTH: f32 = 1.0e-3;
 
@@ -82,9 +79,8 @@ impl Air {
     pub(super) fn lose_warmth(&mut self, dt: f32) {
         let (kept, mut most) = (1.0 / (1.0 + dt / LOSS_SECONDS), 0.0_f32);
         for warmth in &mut self.warmth {
-            let left = *warmth * kept;
-            *warmth = if left.abs() < COLD { 0.0 } else { left };
-            most = most.max(left.abs());
+            *warmth *= kept;
+            most = most.max(warmth.abs());
         }
         if most <= QUIET_WARMTH {
             self.warmth = Vec::new();
