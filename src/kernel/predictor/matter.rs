@@ -21,7 +21,7 @@ use crate::{
     predictor::{
         grid::MacGrid,
         level,
-        share_out::{Pair, ShareOut},
+        share_out::{LEAST_WEIGHT, Pair, ShareOut},
         stencil::{Axis, LANES, Stencils},
     },
     simd::{Lanes, Pass, padded},
@@ -35,7 +35,7 @@ pub(super) struct Matter {
     /// At left and lower faces: density and its inverse; 0 where no particle is near. Before [`Matter::weigh`] mass and
     /// momentum of the particles.
     faces: [Vec<[f32; 2]>; 2],
-    /// At left and lower faces: mass of the particles, and what of it gains beside the liquid.
+    /// At left and lower faces: mass of the particles, and what share of it gains beside the liquid.
     beside: [Vec<[f32; 2]>; 2],
     /// Density of each particle.
     masses: Vec<f32>,
@@ -103,6 +103,8 @@ impl Matter {
             team.instructions.run(FindBeside { grid, densities, at, masses, gains });
         });
         share.run(at, Some(masses), [gains, gains], beside.each_mut());
+        // Here, and not where each particle looks at eight of them.
+        share.find_means(beside.each_mut().map(|faces| &mut faces[..]));
     }
 
     /// Bytes held.
@@ -168,11 +170,7 @@ impl<'a> Beside<'a> {
     #[inline(always)]
     pub fn more(&self, i: usize, axis: Axis, stride: usize, corner: usize, [right, upper]: [f32; 2]) -> f32 {
         let faces = self.faces[axis as usize];
-        let mean = |face: usize| {
-            let [mass, gained] = faces[face];
-            gained / if mass > LEAST_MASS { mass } else { LEAST_MASS }
-        };
-        let row = |at: usize| (1.0 - right) * mean(at) + right * mean(at + 1);
+        let row = |at: usize| (1.0 - right) * faces[at][1] + right * faces[at + 1][1];
         self.gains[i] - ((1.0 - upper) * row(corner) + upper * row(corner + stride))
     }
 }
@@ -188,9 +186,6 @@ const LAYERED: f32 = 0.75;
 /// that law for D = d), at 8.3 by three times that (8.8 for D = 5 d).
 const GROWN: f32 = 3.0;
 
-/// Faces with less mass than this have none.
-const LEAST_MASS: f32 = 1e-12;
-
 struct Weigh {
     columns: Range<usize>,
 }
@@ -202,7 +197,7 @@ impl<'a> Sweep<(Pair<'a>, Pair<'a>)> for Weigh {
         for (row, own) in faces.zip(own_u.each().chain(own_v.each())) {
             for (face, own) in row[self.columns.clone()].iter_mut().zip(&mut own[self.columns.clone()]) {
                 let ([count, velocity], [mass, momentum]) = (face, *own);
-                let is_there = *count > LEAST_MASS && mass > LEAST_MASS;
+                let is_there = *count > LEAST_WEIGHT && mass > LEAST_WEIGHT;
                 *velocity = if is_there { momentum / mass } else { 0.0 };
                 *own = if is_there { [mass / *count, *count / mass] } else { [0.0; 2] };
             }

@@ -6,6 +6,7 @@ use crate::{
     predictor::{
         fold::fold_at_walls,
         grid::MacGrid,
+        level,
         stencil::{Axis, LANES, Stencils},
     },
     simd::{Lanes, Pass, padded},
@@ -14,6 +15,9 @@ use std::ops::Range;
 
 /// Fewer faces than this are not handed to another thread to be cleared.
 const WORTH_CLEARING: usize = 8192;
+
+/// Faces with less weight than this have none.
+pub(super) const LEAST_WEIGHT: f32 = 1e-12;
 
 /// Shares out on the faces what particles have.
 pub(super) struct ShareOut<'a> {
@@ -57,6 +61,14 @@ impl ShareOut<'_> {
         });
         fold_at_walls(grid, reached.clone(), columns, u, v);
     }
+
+    /// Turns weighted sums on faces into means; 0 where nothing is near.
+    pub fn find_means(&self, [u, v]: [&mut [[f32; 2]]; 2]) {
+        let Self { grid, reached, area, team, .. } = *self;
+        let rows = (Rows::new(u, grid.stride, reached), Rows::new(v, grid.stride, reached));
+        let work = Divide { columns: grid.padded(area) };
+        sweep(&work, reached.clone(), rows, area.len(), level::WORTH_A_PIECE, team);
+    }
 }
 
 struct Clear {
@@ -70,6 +82,21 @@ impl<'b> Sweep<Pair<'b>> for Clear {
     #[inline(always)]
     fn run(&self, _: Range<usize>, (mut u, mut v): Pair) {
         u.each().chain(v.each()).for_each(|row| row[self.columns.clone()].fill([0.0; 2]));
+    }
+}
+
+struct Divide {
+    columns: Range<usize>,
+}
+
+impl<'b> Sweep<Pair<'b>> for Divide {
+    #[inline(always)]
+    fn run(&self, _: Range<usize>, (mut u, mut v): Pair) {
+        for row in u.each().chain(v.each()) {
+            for [weight, value] in &mut row[self.columns.clone()] {
+                *value /= if *weight > LEAST_WEIGHT { *weight } else { LEAST_WEIGHT };
+            }
+        }
     }
 }
 

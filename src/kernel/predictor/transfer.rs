@@ -2,14 +2,13 @@
 
 use crate::{
     blocks::Blocks,
-    parallel::{Rows, Sweep, Team, sweep},
+    parallel::Team,
     particles::{Particles, extent},
     predictor::{
         grid::MacGrid,
-        level,
         matter::{Buoyancy, Matter},
         operator::Lent,
-        share_out::{Pair, ShareOut},
+        share_out::ShareOut,
         stencil::Axis,
     },
 };
@@ -68,14 +67,10 @@ impl Faces {
 
     /// Turns momenta into mean velocities: those of the mass, where it differs.
     pub fn find_means(&mut self, grid: &MacGrid, team: Team) {
-        let Self { u, v, reached, area, matter, .. } = self;
-        let columns = grid.padded(area);
+        let Self { u, v, reached, area, matter, blocks, .. } = self;
         match matter {
-            Some(matter) => matter.weigh(grid, [u, v], reached, columns, team),
-            None => {
-                let band = (Rows::new(u, grid.stride, reached), Rows::new(v, grid.stride, reached));
-                sweep(&Divide { columns }, reached.clone(), band, area.len(), level::WORTH_A_PIECE, team);
-            }
+            Some(matter) => matter.weigh(grid, [u, v], reached, grid.padded(area), team),
+            None => ShareOut { grid, blocks, reached, area, team }.find_means([u, v]),
         }
     }
 
@@ -108,20 +103,5 @@ impl Faces {
         let on_faces: usize = [&self.u, &self.v, ways_u, ways_v].map(|field| 8 * field.capacity()).iter().sum();
         let matter = self.matter.as_ref().map_or(0, Matter::memory);
         on_faces + matter + 4 * (self.filled.capacity() + self.made_up.capacity()) + self.blocks.memory()
-    }
-}
-
-struct Divide {
-    columns: Range<usize>,
-}
-
-impl<'b> Sweep<Pair<'b>> for Divide {
-    #[inline(always)]
-    fn run(&self, _: Range<usize>, (mut u, mut v): Pair) {
-        for row in u.each().chain(v.each()) {
-            for face in &mut row[self.columns.clone()] {
-                face[1] /= if face[0] > 1e-12 { face[0] } else { 1e-12 };
-            }
-        }
     }
 }
