@@ -29,7 +29,7 @@ use super::{law, source::FACE_FILTER};
 use crate::simd::{Lanes, lane_starts};
 use std::hint::black_box;
 
-/// Pressure below which a cell is empty: it has no mass and no velocity. Far below a rounding of any mass that matters, far
+/// Pressure below which a cell is empty: it has no mass and brings no momentum. Far below a rounding of any mass that matters, far
 /// above denormals (which cost a hundred times the time), even when shares multiply it.
 pub(super) const VACUUM: f32 = 1.0e-22;
 
