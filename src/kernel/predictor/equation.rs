@@ -1,6 +1,7 @@
 //! The rows of the pressure equation: what is done to each cell or face of a row, in lanes. The caller walks the rows.
 
 use crate::predictor::{pockets::is_sealed, rock::Beside, transfer::Way};
+use glam::IVec2;
 use std::ops::Range;
 
 /// Nearest that the surface is taken to be to a liquid cell's centre, cells, so that the equation stays bounded. Within
@@ -8,8 +9,6 @@ use std::ops::Range;
 /// sloshing was off by up to 16 % at h = 2.5 d and 33 % at 3 d, depending on where in its cell the surface stood; at 0.05
 /// by up to 2.7 %, and nothing costs more (docs/accuracy.md, "The surface").
 const LEAST_THETA: f32 = 0.05;
-/// Most that a cell's density is taken to be too high, and too low inside the liquid: pulls harder than this make noise.
-const FEEDBACK_RANGE: (f32, f32) = (-0.1, 0.3);
 
 /// Cells of a row that are done together where values are made on the way.
 pub(super) const CHUNK: usize = 64;
@@ -18,10 +17,10 @@ pub(super) const CHUNK: usize = 64;
 #[derive(Clone, Copy)]
 pub(super) struct Around<'a> {
     pub centre: &'a [f32],
-    left: &'a [f32],
-    right: &'a [f32],
-    lower: &'a [f32],
-    upper: &'a [f32],
+    pub left: &'a [f32],
+    pub right: &'a [f32],
+    pub lower: &'a [f32],
+    pub upper: &'a [f32],
 }
 
 impl<'a> Around<'a> {
@@ -48,27 +47,17 @@ impl<'a> Around<'a> {
     }
 }
 
-impl Around<'_> {
-    /// Whether a side of liquid cell `i` is neither liquid nor mostly rock: the surface is there.
+impl<'a> Around<'a> {
+    /// The cells on the side that lies `way` of each; the cells themselves for no way.
     #[inline(always)]
-    fn touches_air(self, rock: Around, i: usize) -> bool {
-        let is_free = |liquid: f32, rock: f32| liquid + 2.0 * rock < 0.5;
-        is_free(self.left[i], rock.left[i])
-            | is_free(self.right[i], rock.right[i])
-            | is_free(self.lower[i], rock.lower[i])
-            | is_free(self.upper[i], rock.upper[i])
-    }
-
-    /// Whether the pressure of liquid cell `i` falls to 0 before a side of it where no liquid is, if it falls on as it falls
-    /// towards the cell from the other side: the surface is in the cell.
-    #[inline(always)]
-    fn ends_within(self, liquid: Around, i: usize) -> bool {
-        let ends =
-            |wet: f32, from: f32, to: f32| (wet > 0.5) & (from > 0.0) & (from > 3.0 * self.centre[i]) & (to < 0.5);
-        ends(liquid.lower[i], self.lower[i], liquid.upper[i])
-            | ends(liquid.upper[i], self.upper[i], liquid.lower[i])
-            | ends(liquid.left[i], self.left[i], liquid.right[i])
-            | ends(liquid.right[i], self.right[i], liquid.left[i])
+    pub fn on(self, way: IVec2) -> &'a [f32] {
+        match way {
+            IVec2::NEG_X => self.left,
+            IVec2::X => self.right,
+            IVec2::NEG_Y => self.lower,
+            IVec2::Y => self.upper,
+            _ => self.centre,
+        }
     }
 }
 
@@ -201,42 +190,6 @@ pub(super) fn may_be_sealed(
         any |= (diagonal[i] > 0.0) & (to_upper[i] == 0.0) & is_sealed(diagonal[i], coupled);
     }
     any
-}
-
-/// Asks for a divergence that takes the density error away. Returns in how many liquid cells the error is out of
-/// [`FEEDBACK_RANGE`] and was cut to it.
-#[inline(always)]
-pub(super) fn feed_back(
-    right_side: &mut [f32],
-    (liquid, pressure): (Around, Around),
-    rock: Around,
-    filled: &[f32],
-    feedback: f32,
-) -> u32 {
-    let mut cuts = 0;
-    for i in 0..right_side.len() {
-        let at_surface = liquid.touches_air(rock, i) | pressure.ends_within(liquid, i);
-        let (least, most) = (if at_surface { 0.0 } else { FEEDBACK_RANGE.0 }, FEEDBACK_RANGE.1);
-        let wanted = filled[i] - 1.0;
-        let error = if wanted > least { wanted } else { least };
-        let error = if error < most { error } else { most };
-        right_side[i] = liquid.centre[i] * feedback * error;
-        // A surface is no error: what is missing there is air.
-        let cut = (wanted > most) | ((wanted < FEEDBACK_RANGE.0) & !at_surface);
-        cuts += u32::from(cut & (liquid.centre[i] > 0.0));
-    }
-    cuts
-}
-
-/// How much of [`FEEDBACK_RANGE`] the error of a cell uses: past 1 it is cut. `i` counts within the row.
-pub(super) fn feedback_share((liquid, pressure): (Around, Around), rock: Around, filled: &[f32], i: usize) -> f32 {
-    let error = filled[i] - 1.0;
-    match error {
-        _ if liquid.centre[i] == 0.0 => 0.0,
-        error if error > 0.0 => error / FEEDBACK_RANGE.1,
-        _ if liquid.touches_air(rock, i) | pressure.ends_within(liquid, i) => 0.0,
-        error => error / FEEDBACK_RANGE.0,
-    }
 }
 
 /// Most by which a cell may be asked to make up for the change of volume that a move of a substep brings with it.

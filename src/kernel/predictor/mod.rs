@@ -9,7 +9,7 @@
 //!
 //! Modules: `steps` the whole, `grid` the geometry, `parts` what rock leaves of cells, `open_shares` of faces, `slivers` cells of
 //! which a thin wall leaves little, `behind` what thin walls hide, `rock` all that of a box, `stencil`, `share_out`, `transfer` and `way_back` particles to grid and
-//! back, `matter` what of it is heavier, `grains` friction among powders, `pressure` and `equation` the equation, `changes` what
+//! back, `matter` what of it is heavier, `grains` friction among powders, `pressure` and `equation` the equation, `feedback` what wrong densities ask of it, `changes` what
 //! follows from its solution on the faces, `flow` the velocity that comes of it, `pressure_at` the pressure between the cells,
 //! `pockets` where it is singular, `pieces` where there is any, `operator`, `level`, `multigrid` and `conjugate` its solver, `wide` how they
 //! go over cells.
@@ -18,6 +18,7 @@ mod behind;
 mod changes;
 mod conjugate;
 mod equation;
+mod feedback;
 mod flow;
 mod fold;
 mod grains;

@@ -7,9 +7,10 @@ use crate::{
         changes::Changes,
         conjugate::{Conjugate, tolerance},
         equation::{
-            Around, CHUNK, Sides, couple, feed_back, feedback_share, fill, keep_volumes, lighten, mark, may_be_sealed,
-            spare_the_heavy, steepness, subtract_divergence,
+            Around, CHUNK, Sides, couple, fill, keep_volumes, lighten, mark, may_be_sealed, spare_the_heavy, steepness,
+            subtract_divergence,
         },
+        feedback::feed_back,
         grains::{Bed, Grains},
         grid::MacGrid,
         letting_go::LettingGo,
@@ -27,18 +28,9 @@ use crate::{
 use glam::Vec2;
 use std::{
     ops::Range,
-    sync::atomic::{AtomicBool, AtomicU64, Ordering},
+    sync::atomic::{AtomicBool, Ordering},
 };
 
-/// Rate at which a density error is to be taken away, 1/s: four fifths of it in a tick, however many substeps that has.
-/// It moves particles and gives them no speed: through velocities the same feedback made the flow lag, and stirred
-/// still pools.
-///
-/// **The bound.** The divergence f e that is asked for moves matter for Δt: `e' = e − (1 + e) f Δt e`, to first order
-/// `e' = (1 − f Δt) e`. That shrinks for `f Δt ≤ 2` and without a change of sign for **`f Δt ≤ 1`**. A substep is a tick
-/// at most, so f Δt ≤ 48/60 = 0.8 always. The errors themselves are cut to `FEEDBACK_RANGE`, so that even past the
-/// bound no more than f · 0.3 is asked for; every cell in which that acts is counted.
-const FEEDBACK_PER_SECOND: f32 = 48.0;
 /// Residual, relative to the right-hand side, up to which the feedback is solved for: a fifth, as much as the rate
 /// leaves.
 const FEEDBACK_TOLERANCE: f64 = 0.2;
@@ -116,7 +108,7 @@ impl Pass for Projection<'_> {
             Some(grains) => grains.uneven(&Bed::new((grid, closed), conjugate, full, kick, team), faces),
             None => &faces.filled,
         };
-        let cuts = feed_back_densities(grid, closed, filled, hierarchy.finest(), conjugate, team);
+        let cuts = feed_back(grid, closed, filled, hierarchy.finest(), conjugate, team);
         if has_pockets {
             pockets.balance(grid, hierarchy.finest());
         }
@@ -316,76 +308,4 @@ impl Sweep<System<'_>> for Assemble<'_> {
 #[inline(always)]
 pub(super) fn beside(field: &[f32], first: usize, n: usize, step: usize) -> [&[f32]; 2] {
     [&field[first - step..first - step + n], &field[first..first + n]]
-}
-
-/// Puts the density feedback of the liquid cells on the right-hand side. Returns in how many it was cut.
-fn feed_back_densities(
-    grid: &MacGrid,
-    closed: &ClosedFaces,
-    filled: &[f32],
-    finest: &mut Level,
-    conjugate: &Conjugate,
-    team: Team,
-) -> u64 {
-    let Conjugate { rows, liquid, solution: pressure, .. } = conjugate;
-    let cuts = AtomicU64::new(0);
-    let Level { b, wet, .. } = finest;
-    let work = FeedBack { grid, closed, filled, liquid, pressure, wet, cuts: &cuts };
-    sweep(&work, rows.clone(), Rows::new(b, grid.stride, rows), wet.per_row(), WORTH_A_PIECE, team);
-    cuts.into_inner()
-}
-
-struct FeedBack<'a> {
-    grid: &'a MacGrid,
-    closed: &'a ClosedFaces,
-    filled: &'a [f32],
-    liquid: &'a [f32],
-    pressure: &'a [f32],
-    /// What is solved for.
-    wet: &'a Pieces,
-    /// Counts the cells in which the feedback was cut.
-    cuts: &'a AtomicU64,
-}
-
-impl Sweep<Rows<'_, f32>> for FeedBack<'_> {
-    #[inline(always)]
-    fn run(&self, rows: Range<usize>, mut b: Rows<f32>) {
-        let Self { grid, closed, filled, liquid, pressure, wet, cuts } = *self;
-        let mut cut = 0;
-        for (j, b) in rows.zip(b.each()) {
-            for run in wet.runs(j) {
-                let cells = grid.row(j) + run.start..grid.row(j) + run.end;
-                let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + run.start);
-                let (n, rock) = (run.len(), &closed.rock);
-                let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
-                let [liquid, pressure] = [liquid, pressure].map(|field| Around::new(field, cells.clone(), grid.stride));
-                let rate = FEEDBACK_PER_SECOND * grid.cell;
-                cut += feed_back(&mut b[run], (liquid, pressure), rock, &filled[cells], rate);
-            }
-        }
-        cuts.fetch_add(u64::from(cut), Ordering::Relaxed);
-    }
-}
-
-/// Shows `visit` every liquid cell of the last projection, as (column, row) from the lower left, and how much of the
-/// feedback's range its density error uses.
-pub(super) fn feedback_shares(
-    grid: &MacGrid,
-    closed: &ClosedFaces,
-    faces: &Faces,
-    conjugate: &Conjugate,
-    mut visit: impl FnMut([usize; 2], f32),
-) {
-    let n = grid.columns;
-    for j in conjugate.rows.clone() {
-        let cells = grid.row(j) + 1..grid.row(j) + 1 + n;
-        let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + 1);
-        let rock = &closed.rock;
-        let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
-        let [liquid, pressure] =
-            [&conjugate.liquid, &conjugate.solution].map(|field| Around::new(field, cells.clone(), grid.stride));
-        for i in (0..n).filter(|i| liquid.centre[*i] > 0.0) {
-            visit([i, j - 1], feedback_share((liquid, pressure), rock, &faces.filled[cells.clone()], i));
-        }
-    }
 }

@@ -6,6 +6,7 @@ use crate::{
     particles::Particles,
     predictor::{
         conjugate::Conjugate,
+        feedback,
         flow::Flow,
         grains::{GrainParams, Grains},
         grid::MacGrid,
@@ -200,7 +201,7 @@ impl Predictor {
         if conjugate.rows.is_empty() || faces.filled.len() != grid.len() {
             return;
         }
-        pressure::feedback_shares(grid, closed, faces, conjugate, |[column, row], share| {
+        feedback::shares(grid, closed, faces, conjugate, |[column, row], share| {
             visit((Vec2::new(column as f32, row as f32) + 0.5) * grid.cell, share);
         });
     }

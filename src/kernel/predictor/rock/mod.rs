@@ -76,6 +76,11 @@ impl ClosedFaces {
         self.built_for = Some(now);
     }
 
+    /// Against gravity, along the axis on which it pulls most; 0 without any.
+    pub fn up(&self) -> IVec2 {
+        self.built_for.map_or(IVec2::ZERO, |(_, _, down)| -down)
+    }
+
     /// Index of cell (0, j) in the fields.
     #[inline(always)]
     pub fn row(&self, j: usize) -> usize {

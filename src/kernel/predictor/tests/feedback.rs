@@ -70,3 +70,25 @@ fn an_error_shrinks_just_below_the_bound_and_stays_bounded_past_it() {
         }
     }
 }
+
+#[test]
+fn a_film_in_a_crevice_does_not_draw_together_until_it_fills_it() {
+    // One row of particles and two, in crevices that have room for one or two more.
+    for (depth, height) in [(1, 2), (1, 3), (2, 3), (2, 4)] {
+        let crevice = |at: Vec2| at.y < height as f32;
+        for (gravity, turned) in [(Vec2::NEG_Y, false), (Vec2::NEG_X, true)] {
+            let turn = |at: Vec2| if turned { Vec2::new(at.y, at.x) } else { at };
+            let solids = solids(60, 60, |at| !crevice(turn(at)));
+            let film = |at: Vec2| (15.0..45.0).contains(&at.x) && at.y < depth as f32;
+            let mut particles = lattice(&solids, |at| film(turn(at)).then_some(Vec2::ZERO));
+            let mut predictor = Predictor::default();
+            let before = particles.clone();
+            for _ in 0..10 {
+                pull(&mut predictor, &mut particles, &solids, (LATTICE, DT), gravity);
+            }
+            let drawn = (0..particles.len()).map(|i| particles.position(i).distance(before.position(i)));
+            let most = drawn.fold(0.0, f32::max);
+            assert!(most < 0.5, "{depth} d in {height} d, gravity {gravity}: drawn together by {most} d");
+        }
+    }
+}

@@ -83,13 +83,19 @@ fn predict(particles: &mut Particles, solids: &Solids, rest_density: f32) -> Pre
 }
 
 /// One prediction over a substep (s) more by a predictor that there is, at a rest density as a multiple of the lattice's.
-fn go_on(
+fn go_on(predictor: &mut Predictor, particles: &mut Particles, solids: &Solids, of: (f32, f32)) -> PredictorReport {
+    pull(predictor, particles, solids, of, DOWN)
+}
+
+/// The same with a gravity of its own.
+fn pull(
     predictor: &mut Predictor,
     particles: &mut Particles,
     solids: &Solids,
     (rest_density, dt): (f32, f32),
+    gravity: Vec2,
 ) -> PredictorReport {
-    let domain = Domain { size: size(solids), gravity: DOWN };
+    let domain = Domain { size: size(solids), gravity };
     let instructions = InstructionSet::detect();
     let params = PredictorParams {
         domain: &domain,

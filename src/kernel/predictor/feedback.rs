@@ -1,0 +1,187 @@
+//! The density feedback: what is asked for of the divergence so that cells that are too full or not full enough become full.
+
+use crate::{
+    parallel::{Rows, Sweep, Team, sweep},
+    predictor::{
+        conjugate::Conjugate,
+        equation::Around,
+        grid::MacGrid,
+        level::{Level, WORTH_A_PIECE},
+        pieces::Pieces,
+        rock::ClosedFaces,
+        transfer::Faces,
+    },
+};
+use std::{
+    ops::Range,
+    sync::atomic::{AtomicU64, Ordering},
+};
+
+/// Rate at which a density error is to be taken away, 1/s: four fifths of it in a tick, however many substeps that has.
+/// It moves particles and gives them no speed: through velocities the same feedback made the flow lag, and stirred
+/// still pools.
+///
+/// **The bound.** The divergence f e that is asked for moves matter for Δt: `e' = e − (1 + e) f Δt e`, to first order
+/// `e' = (1 − f Δt) e`. That shrinks for `f Δt ≤ 2` and without a change of sign for **`f Δt ≤ 1`**. A substep is a tick
+/// at most, so f Δt ≤ 48/60 = 0.8 always. The errors themselves are cut to [`RANGE`], so that even past the
+/// bound no more than f · 0.3 is asked for; every cell in which that acts is counted.
+const PER_SECOND: f32 = 48.0;
+/// Most that a cell's density is taken to be too high, and too low inside the liquid: pulls harder than this make noise.
+const RANGE: (f32, f32) = (-0.1, 0.3);
+
+/// Puts the density feedback of the liquid cells on the right-hand side. Returns in how many it was cut.
+pub(super) fn feed_back(
+    grid: &MacGrid,
+    closed: &ClosedFaces,
+    filled: &[f32],
+    finest: &mut Level,
+    conjugate: &Conjugate,
+    team: Team,
+) -> u64 {
+    let Conjugate { rows, liquid, solution: pressure, .. } = conjugate;
+    let cuts = AtomicU64::new(0);
+    let Level { b, wet, .. } = finest;
+    let work = FeedBack { grid, closed, filled, liquid, pressure, wet, cuts: &cuts };
+    sweep(&work, rows.clone(), Rows::new(b, grid.stride, rows), wet.per_row(), WORTH_A_PIECE, team);
+    cuts.into_inner()
+}
+
+struct FeedBack<'a> {
+    grid: &'a MacGrid,
+    closed: &'a ClosedFaces,
+    filled: &'a [f32],
+    liquid: &'a [f32],
+    pressure: &'a [f32],
+    /// What is solved for.
+    wet: &'a Pieces,
+    /// Counts the cells in which the feedback was cut.
+    cuts: &'a AtomicU64,
+}
+
+impl Sweep<Rows<'_, f32>> for FeedBack<'_> {
+    #[inline(always)]
+    fn run(&self, rows: Range<usize>, mut b: Rows<f32>) {
+        let Self { grid, closed, filled, liquid, pressure, wet, cuts } = *self;
+        let mut cut = 0;
+        for (j, b) in rows.zip(b.each()) {
+            for run in wet.runs(j) {
+                let surface = Surface::new(grid, closed, [filled, liquid, pressure], (j, run.clone()));
+                cut += ask(&mut b[run], surface, PER_SECOND * grid.cell);
+            }
+        }
+        cuts.fetch_add(u64::from(cut), Ordering::Relaxed);
+    }
+}
+
+/// Asks for a divergence that takes the density error away. Returns in how many liquid cells the error is out of
+/// [`RANGE`] and was cut to it.
+#[inline(always)]
+fn ask(right_side: &mut [f32], surface: Surface, feedback: f32) -> u32 {
+    let Surface { filled, liquid, .. } = surface;
+    let mut cuts = 0;
+    for i in 0..right_side.len() {
+        let at_surface = surface.is_at(i);
+        let (least, most) = (if at_surface { 0.0 } else { RANGE.0 }, RANGE.1);
+        let wanted = filled[i] - 1.0;
+        let error = if wanted > least { wanted } else { least };
+        let error = if error < most { error } else { most };
+        right_side[i] = liquid.centre[i] * feedback * error;
+        // A surface is no error: what is missing there is air.
+        let cut = (wanted > most) | ((wanted < RANGE.0) & !at_surface);
+        cuts += u32::from(cut & (liquid.centre[i] > 0.0));
+    }
+    cuts
+}
+
+/// Shows `visit` every liquid cell of the last projection, as (column, row) from the lower left, and how much of the
+/// feedback's range its density error uses.
+pub(super) fn shares(
+    grid: &MacGrid,
+    closed: &ClosedFaces,
+    faces: &Faces,
+    conjugate: &Conjugate,
+    mut visit: impl FnMut([usize; 2], f32),
+) {
+    let Conjugate { rows, liquid, solution, .. } = conjugate;
+    for j in rows.clone() {
+        let surface = Surface::new(grid, closed, [&faces.filled, liquid, solution], (j, 1..1 + grid.columns));
+        for i in (0..grid.columns).filter(|i| surface.liquid.centre[*i] > 0.0) {
+            visit([i, j - 1], share(surface, i));
+        }
+    }
+}
+
+/// How much of [`RANGE`] the error of a cell uses: past 1 it is cut. `i` counts within the row.
+fn share(surface: Surface, i: usize) -> f32 {
+    match surface.filled[i] - 1.0 {
+        error if error > 0.0 => error / RANGE.1,
+        _ if surface.is_at(i) => 0.0,
+        error => error / RANGE.0,
+    }
+}
+
+/// What tells the surface's cells from those inside the liquid, in a row.
+#[derive(Clone, Copy)]
+struct Surface<'a> {
+    /// How full cells are.
+    filled: &'a [f32],
+    /// Cells that are liquid (1).
+    liquid: Around<'a>,
+    /// The last pressure, d/s.
+    pressure: Around<'a>,
+    /// Share of rock.
+    rock: Around<'a>,
+    /// What of `liquid` is above, against gravity; the cells themselves without.
+    above: &'a [f32],
+}
+
+impl<'a> Surface<'a> {
+    /// In some columns of row `j`, by how full cells are, which of them are liquid, and the last pressure.
+    #[inline(always)]
+    fn new(
+        grid: &MacGrid,
+        closed: &'a ClosedFaces,
+        [filled, liquid, pressure]: [&'a [f32]; 3],
+        (j, columns): (usize, Range<usize>),
+    ) -> Self {
+        let cells = grid.row(j) + columns.start..grid.row(j) + columns.end;
+        let [liquid, pressure] = [liquid, pressure].map(|field| Around::new(field, cells.clone(), grid.stride));
+        let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + columns.start);
+        let (n, rock) = (columns.len(), &closed.rock);
+        let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
+        Self { filled: &filled[cells], liquid, pressure, rock, above: liquid.on(closed.up()) }
+    }
+
+    /// Whether the surface is beside liquid cell `i`, or in it. Above a cell that is short by more than [`RANGE`] it is, be it that
+    /// rock is there: in a crevice no higher than a cell nothing else shows it. Taken for liquid that is too thin, a film drew
+    /// together until it filled the crevice, and gained the height.
+    #[inline(always)]
+    fn is_at(self, i: usize) -> bool {
+        let is_below = (self.above[i] < 0.5) & (self.filled[i] < 1.0 + RANGE.0);
+        self.touches_air(i) | self.ends_within(i) | is_below
+    }
+
+    /// Whether a side of liquid cell `i` is neither liquid nor mostly rock: the surface is there.
+    #[inline(always)]
+    fn touches_air(self, i: usize) -> bool {
+        let Self { liquid, rock, .. } = self;
+        let is_free = |liquid: f32, rock: f32| liquid + 2.0 * rock < 0.5;
+        is_free(liquid.left[i], rock.left[i])
+            | is_free(liquid.right[i], rock.right[i])
+            | is_free(liquid.lower[i], rock.lower[i])
+            | is_free(liquid.upper[i], rock.upper[i])
+    }
+
+    /// Whether the pressure of liquid cell `i` falls to 0 before a side of it where no liquid is, if it falls on as it falls
+    /// towards the cell from the other side: the surface is in the cell.
+    #[inline(always)]
+    fn ends_within(self, i: usize) -> bool {
+        let Self { liquid, pressure, .. } = self;
+        let ends =
+            |wet: f32, from: f32, to: f32| (wet > 0.5) & (from > 0.0) & (from > 3.0 * pressure.centre[i]) & (to < 0.5);
+        ends(liquid.lower[i], pressure.lower[i], liquid.upper[i])
+            | ends(liquid.upper[i], pressure.upper[i], liquid.lower[i])
+            | ends(liquid.left[i], pressure.left[i], liquid.right[i])
+            | ends(liquid.right[i], pressure.right[i], liquid.left[i])
+    }
+}
