@@ -131,8 +131,8 @@ struct Surface<'a> {
     pressure: Around<'a>,
     /// Share of rock.
     rock: Around<'a>,
-    /// What of `liquid` is above, against gravity; the cells themselves without.
-    above: &'a [f32],
+    /// What of `liquid` and `pressure` is above, against gravity; the cells themselves without.
+    above: [&'a [f32]; 2],
 }
 
 impl<'a> Surface<'a> {
@@ -149,16 +149,23 @@ impl<'a> Surface<'a> {
         let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + columns.start);
         let (n, rock) = (columns.len(), &closed.rock);
         let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
-        Self { filled: &filled[cells], liquid, pressure, rock, above: liquid.on(closed.up()) }
+        let above = [liquid, pressure].map(|field| field.on(closed.up()));
+        Self { filled: &filled[cells], liquid, pressure, rock, above }
     }
 
-    /// Whether the surface is beside liquid cell `i`, or in it. Above a cell that is short by more than [`RANGE`] it is, be it that
-    /// rock is there: in a crevice no higher than a cell nothing else shows it. Taken for liquid that is too thin, a film drew
-    /// together until it filled the crevice, and gained the height.
+    /// Whether the surface is beside liquid cell `i`, or in it.
     #[inline(always)]
     fn is_at(self, i: usize) -> bool {
-        let is_below = (self.above[i] < 0.5) & (self.filled[i] < 1.0 + RANGE.0);
-        self.touches_air(i) | self.ends_within(i) | is_below
+        self.touches_air(i) | self.ends_within(i) | self.ends_above(i)
+    }
+
+    /// Whether no liquid is above cell `i`, be it that rock is there, or some that hangs where the pressure has fallen to 0 on the
+    /// way. Beneath a ceiling nothing else shows the surface: taken for liquid that is too thin, a film in a crevice drew together
+    /// until it filled it, and a pool went round for ever beneath a nook that its surface just reached.
+    #[inline(always)]
+    fn ends_above(self, i: usize) -> bool {
+        let [liquid, pressure] = self.above;
+        (liquid[i] < 0.5) | ((self.pressure.centre[i] > 0.0) & (pressure[i] < 0.0))
     }
 
     /// Whether a side of liquid cell `i` is neither liquid nor mostly rock: the surface is there.
@@ -183,5 +190,38 @@ impl<'a> Surface<'a> {
             | ends(liquid.upper[i], pressure.upper[i], liquid.lower[i])
             | ends(liquid.left[i], pressure.left[i], liquid.right[i])
             | ends(liquid.right[i], pressure.right[i], liquid.left[i])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::IVec2;
+
+    /// What is asked of a liquid cell in the middle of liquid, as a share of the rate, by how full it is, its pressure, and whether
+    /// what is above it, half of it rock, is liquid of which pressure.
+    fn asked(filled: f32, pressure: f32, above: Option<f32>) -> f32 {
+        let (mut liquid, mut pressures, mut rock) = ([1.0; 9], [0.0; 9], [0.0; 9]);
+        (liquid[7], rock[7]) = (if above.is_some() { 1.0 } else { 0.0 }, 0.5);
+        (pressures[4], pressures[7]) = (pressure, above.unwrap_or_default());
+        let [liquid, pressure, rock] = [&liquid, &pressures, &rock].map(|field| Around::new(field, 4..5, 3));
+        let above = [liquid, pressure].map(|field| field.on(IVec2::Y));
+        let mut asked = [0.0];
+        ask(&mut asked, Surface { filled: &[filled], liquid, pressure, rock, above }, 1.0);
+        asked[0]
+    }
+
+    #[test]
+    fn beneath_a_ceiling_nothing_is_too_thin_where_the_pressure_ends() {
+        let close = |found: f32, wanted: f32| assert!((found - wanted).abs() < 1e-6, "{found}, not {wanted}");
+        close(asked(0.95, 1.0, Some(0.5)), -0.05);
+        close(asked(0.95, 1.0, Some(-0.3)), 0.0);
+        close(asked(0.95, 1.0, None), 0.0);
+        close(asked(0.85, 1.0, None), 0.0);
+        // What hangs as a whole, as in a glass that is upside down, has no surface in it.
+        close(asked(0.95, -0.2, Some(-0.8)), -0.05);
+        // What is pressed together gives way in any case.
+        close(asked(1.05, 1.0, Some(-0.3)), 0.05);
+        close(asked(1.05, 1.0, None), 0.05);
     }
 }
