@@ -28,6 +28,9 @@ use std::{
 const PER_SECOND: f32 = 48.0;
 /// Most that a cell's density is taken to be too high, and too low inside the liquid: pulls harder than this make noise.
 const RANGE: (f32, f32) = (-0.1, 0.3);
+/// A cell is beneath a ceiling where so much more rock is above than in it: half of what a plate one particle thick comes to in cells
+/// of 2.5 d, that lies between the one above and the next.
+const CEILING: f32 = 0.1;
 
 /// Puts the density feedback of the liquid cells on the right-hand side. Returns in how many it was cut.
 pub(super) fn feed_back(
@@ -131,8 +134,8 @@ struct Surface<'a> {
     pressure: Around<'a>,
     /// Share of rock.
     rock: Around<'a>,
-    /// What of `liquid` and `pressure` is above, against gravity; the cells themselves without.
-    above: [&'a [f32]; 2],
+    /// What of liquid, pressure and rock is above, against gravity; the cells themselves without.
+    above: [&'a [f32]; 3],
 }
 
 impl<'a> Surface<'a> {
@@ -149,7 +152,7 @@ impl<'a> Surface<'a> {
         let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + columns.start);
         let (n, rock) = (columns.len(), &closed.rock);
         let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
-        let above = [liquid, pressure].map(|field| field.on(closed.up()));
+        let above = [liquid, pressure, rock].map(|field| field.on(closed.up()));
         Self { filled: &filled[cells], liquid, pressure, rock, above }
     }
 
@@ -159,13 +162,14 @@ impl<'a> Surface<'a> {
         self.touches_air(i) | self.ends_within(i) | self.ends_above(i)
     }
 
-    /// Whether no liquid is above cell `i`, be it that rock is there, or some that hangs where the pressure has fallen to 0 on the
-    /// way. Beneath a ceiling nothing else shows the surface: taken for liquid that is too thin, a film in a crevice drew together
-    /// until it filled it, and a pool went round for ever beneath a nook that its surface just reached.
+    /// Whether cell `i` is beneath a ceiling, and above it no liquid or some that hangs, as the pressure has fallen to 0 on the way.
+    /// Nothing else shows the surface there: taken for liquid that is too thin, a film in a crevice drew together until it filled
+    /// it, and a pool went round for ever beneath a nook that its surface just reached.
     #[inline(always)]
     fn ends_above(self, i: usize) -> bool {
-        let [liquid, pressure] = self.above;
-        (liquid[i] < 0.5) | ((self.pressure.centre[i] > 0.0) & (pressure[i] < 0.0))
+        let [liquid, pressure, rock] = self.above;
+        let ends = (liquid[i] < 0.5) | ((self.pressure.centre[i] > 0.0) & (pressure[i] < 0.0));
+        (rock[i] - self.rock.centre[i] > CEILING) & ends
     }
 
     /// Whether a side of liquid cell `i` is neither liquid nor mostly rock: the surface is there.
@@ -205,7 +209,7 @@ mod tests {
         (liquid[7], rock[7]) = (if above.is_some() { 1.0 } else { 0.0 }, 0.5);
         (pressures[4], pressures[7]) = (pressure, above.unwrap_or_default());
         let [liquid, pressure, rock] = [&liquid, &pressures, &rock].map(|field| Around::new(field, 4..5, 3));
-        let above = [liquid, pressure].map(|field| field.on(IVec2::Y));
+        let above = [liquid, pressure, rock].map(|field| field.on(IVec2::Y));
         let mut asked = [0.0];
         ask(&mut asked, Surface { filled: &[filled], liquid, pressure, rock, above }, 1.0);
         asked[0]
