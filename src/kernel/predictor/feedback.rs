@@ -12,6 +12,7 @@ use crate::{
         transfer::Faces,
     },
 };
+use glam::IVec2;
 use std::{
     ops::Range,
     sync::atomic::{AtomicU64, Ordering},
@@ -134,8 +135,17 @@ struct Surface<'a> {
     pressure: Around<'a>,
     /// Share of rock.
     rock: Around<'a>,
-    /// What of liquid, pressure and rock is above, against gravity; the cells themselves without.
-    above: [&'a [f32]; 3],
+    above: Above<'a>,
+}
+
+/// What is above a row of cells, against gravity; without it the cells themselves.
+#[derive(Clone, Copy)]
+struct Above<'a> {
+    liquid: &'a [f32],
+    pressure: &'a [f32],
+    rock: &'a [f32],
+    /// Open share of the faces to it.
+    open: &'a [f32],
 }
 
 impl<'a> Surface<'a> {
@@ -152,7 +162,14 @@ impl<'a> Surface<'a> {
         let [below, at, above] = [j - 1, j, j + 1].map(|j| closed.row(j) + columns.start);
         let (n, rock) = (columns.len(), &closed.rock);
         let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
-        let above = [liquid, pressure, rock].map(|field| field.on(closed.up()));
+        let up = closed.up();
+        let open = match up {
+            IVec2::NEG_X => &closed.open_u[at..at + n],
+            IVec2::X => &closed.open_u[at + 1..at + 1 + n],
+            IVec2::Y => &closed.open_v[above..above + n],
+            _ => &closed.open_v[at..at + n],
+        };
+        let above = Above { liquid: liquid.on(up), pressure: pressure.on(up), rock: rock.on(up), open };
         Self { filled: &filled[cells], liquid, pressure, rock, above }
     }
 
@@ -162,14 +179,16 @@ impl<'a> Surface<'a> {
         self.touches_air(i) | self.ends_within(i) | self.ends_above(i)
     }
 
-    /// Whether cell `i` is beneath a ceiling, and above it no liquid or some that hangs, as the pressure has fallen to 0 on the way.
-    /// Nothing else shows the surface there: taken for liquid that is too thin, a film in a crevice drew together until it filled
-    /// it, and a pool went round for ever beneath a nook that its surface just reached.
+    /// Whether above cell `i` is room without liquid, or a ceiling from which it is short by more than [`RANGE`], or under a ceiling
+    /// liquid that hangs, as the pressure has fallen to 0 on the way. Beneath rock nothing else shows the surface: taken for liquid
+    /// that is too thin, a film in a crevice drew together until it filled it, and a pool went round for ever beneath a nook that its
+    /// surface just reached.
     #[inline(always)]
     fn ends_above(self, i: usize) -> bool {
-        let [liquid, pressure, rock] = self.above;
-        let ends = (liquid[i] < 0.5) | ((self.pressure.centre[i] > 0.0) & (pressure[i] < 0.0));
-        (rock[i] - self.rock.centre[i] > CEILING) & ends
+        let Above { liquid, pressure, rock, open } = self.above;
+        let is_empty = (liquid[i] < 0.5) & ((open[i] > 0.0) | (self.filled[i] < 1.0 + RANGE.0));
+        let hangs = (self.pressure.centre[i] > 0.0) & (pressure[i] < 0.0);
+        is_empty | (hangs & (rock[i] - self.rock.centre[i] > CEILING))
     }
 
     /// Whether a side of liquid cell `i` is neither liquid nor mostly rock: the surface is there.
@@ -200,16 +219,16 @@ impl<'a> Surface<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::IVec2;
 
-    /// What is asked of a liquid cell in the middle of liquid, as a share of the rate, by how full it is, its pressure, and whether
-    /// what is above it, half of it rock, is liquid of which pressure.
-    fn asked(filled: f32, pressure: f32, above: Option<f32>) -> f32 {
+    /// What is asked of a liquid cell in the middle of liquid, as a share of the rate, by how full it is, its pressure, and what is
+    /// above it, half of it rock: the pressure if that is liquid, and the open share of the face.
+    fn asked(filled: f32, pressure: f32, (above, open): (Option<f32>, f32)) -> f32 {
         let (mut liquid, mut pressures, mut rock) = ([1.0; 9], [0.0; 9], [0.0; 9]);
         (liquid[7], rock[7]) = (if above.is_some() { 1.0 } else { 0.0 }, 0.5);
         (pressures[4], pressures[7]) = (pressure, above.unwrap_or_default());
         let [liquid, pressure, rock] = [&liquid, &pressures, &rock].map(|field| Around::new(field, 4..5, 3));
-        let above = [liquid, pressure, rock].map(|field| field.on(IVec2::Y));
+        let [l, p, r] = [liquid, pressure, rock].map(|field| field.on(IVec2::Y));
+        let above = Above { liquid: l, pressure: p, rock: r, open: &[open] };
         let mut asked = [0.0];
         ask(&mut asked, Surface { filled: &[filled], liquid, pressure, rock, above }, 1.0);
         asked[0]
@@ -218,14 +237,16 @@ mod tests {
     #[test]
     fn beneath_a_ceiling_nothing_is_too_thin_where_the_pressure_ends() {
         let close = |found: f32, wanted: f32| assert!((found - wanted).abs() < 1e-6, "{found}, not {wanted}");
-        close(asked(0.95, 1.0, Some(0.5)), -0.05);
-        close(asked(0.95, 1.0, Some(-0.3)), 0.0);
-        close(asked(0.95, 1.0, None), 0.0);
-        close(asked(0.85, 1.0, None), 0.0);
+        close(asked(0.95, 1.0, (Some(0.5), 1.0)), -0.05);
+        close(asked(0.95, 1.0, (Some(-0.3), 1.0)), 0.0);
+        close(asked(0.95, 1.0, (None, 1.0)), 0.0);
+        // A vessel that is full to its lid, and one that is not.
+        close(asked(0.95, 1.0, (None, 0.0)), -0.05);
+        close(asked(0.85, 1.0, (None, 0.0)), 0.0);
         // What hangs as a whole, as in a glass that is upside down, has no surface in it.
-        close(asked(0.95, -0.2, Some(-0.8)), -0.05);
+        close(asked(0.95, -0.2, (Some(-0.8), 1.0)), -0.05);
         // What is pressed together gives way in any case.
-        close(asked(1.05, 1.0, Some(-0.3)), 0.05);
-        close(asked(1.05, 1.0, None), 0.05);
+        close(asked(1.05, 1.0, (Some(-0.3), 1.0)), 0.05);
+        close(asked(1.05, 1.0, (None, 1.0)), 0.05);
     }
 }
