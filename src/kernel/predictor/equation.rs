@@ -45,9 +45,7 @@ impl<'a> Around<'a> {
         let Self { centre, left, right, lower, upper } = self;
         Self { centre: &centre[..n], left: &left[..n], right: &right[..n], lower: &lower[..n], upper: &upper[..n] }
     }
-}
 
-impl<'a> Around<'a> {
     /// The cells on the side that lies `way` of each; the cells themselves for no way.
     #[inline(always)]
     pub fn on(self, way: IVec2) -> &'a [f32] {
@@ -59,9 +57,7 @@ impl<'a> Around<'a> {
             _ => self.centre,
         }
     }
-}
 
-impl<'a> Around<'a> {
     /// A row of cells with one more at either end, and the rows below and above it.
     #[inline(always)]
     pub fn of_rows(lower: &'a [f32], own: &'a [f32], upper: &'a [f32]) -> Self {

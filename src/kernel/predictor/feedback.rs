@@ -29,8 +29,8 @@ use std::{
 const PER_SECOND: f32 = 48.0;
 /// Most that a cell's density is taken to be too high, and too low inside the liquid: pulls harder than this make noise.
 const RANGE: (f32, f32) = (-0.1, 0.3);
-/// A cell is beneath a ceiling where so much more rock is above than in it: half of what a plate one particle thick comes to in cells
-/// of 2.5 d, that lies between the one above and the next.
+/// A cell is beneath a ceiling where so much more rock is above than in it: half of what a plate one particle thick makes, in cells of
+/// 2.5 d, where it lies upon the cell above.
 const CEILING: f32 = 0.1;
 
 /// Puts the density feedback of the liquid cells on the right-hand side. Returns in how many it was cut.
