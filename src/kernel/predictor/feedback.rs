@@ -12,7 +12,6 @@ use crate::{
         transfer::Faces,
     },
 };
-use glam::IVec2;
 use std::{
     ops::Range,
     sync::atomic::{AtomicU64, Ordering},
@@ -144,8 +143,6 @@ struct Above<'a> {
     liquid: &'a [f32],
     pressure: &'a [f32],
     rock: &'a [f32],
-    /// Open share of the faces to it.
-    open: &'a [f32],
 }
 
 impl<'a> Surface<'a> {
@@ -163,13 +160,7 @@ impl<'a> Surface<'a> {
         let (n, rock) = (columns.len(), &closed.rock);
         let rock = Around::of_rows(&rock[below..below + n], &rock[at - 1..at + n + 1], &rock[above..above + n]);
         let up = closed.up();
-        let open = match up {
-            IVec2::NEG_X => &closed.open_u[at..at + n],
-            IVec2::X => &closed.open_u[at + 1..at + 1 + n],
-            IVec2::Y => &closed.open_v[above..above + n],
-            _ => &closed.open_v[at..at + n],
-        };
-        let above = Above { liquid: liquid.on(up), pressure: pressure.on(up), rock: rock.on(up), open };
+        let above = Above { liquid: liquid.on(up), pressure: pressure.on(up), rock: rock.on(up) };
         Self { filled: &filled[cells], liquid, pressure, rock, above }
     }
 
@@ -179,14 +170,13 @@ impl<'a> Surface<'a> {
         self.touches_air(i) | self.ends_within(i) | self.ends_above(i)
     }
 
-    /// Whether above cell `i` is room without liquid, or a ceiling from which it is short by more than [`RANGE`], or under a ceiling
-    /// liquid that hangs, as the pressure has fallen to 0 on the way. Beneath rock nothing else shows the surface: taken for liquid
-    /// that is too thin, a film in a crevice drew together until it filled it, and a pool went round for ever beneath a nook that its
-    /// surface just reached.
+    /// Whether cell `i` has no liquid above it and is short by more than [`RANGE`], or has under a ceiling liquid that hangs, as the
+    /// pressure has fallen to 0 on the way. Beneath rock nothing else shows the surface: taken for liquid that is too thin, a film in
+    /// a crevice drew together until it filled it, and a pool went round for ever beneath a nook that its surface just reached.
     #[inline(always)]
     fn ends_above(self, i: usize) -> bool {
-        let Above { liquid, pressure, rock, open } = self.above;
-        let is_empty = (liquid[i] < 0.5) & ((open[i] > 0.0) | (self.filled[i] < 1.0 + RANGE.0));
+        let Above { liquid, pressure, rock } = self.above;
+        let is_empty = (liquid[i] < 0.5) & (self.filled[i] < 1.0 + RANGE.0);
         let hangs = (self.pressure.centre[i] > 0.0) & (pressure[i] < 0.0);
         is_empty | (hangs & (rock[i] - self.rock.centre[i] > CEILING))
     }
@@ -219,16 +209,17 @@ impl<'a> Surface<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::IVec2;
 
-    /// What is asked of a liquid cell in the middle of liquid, as a share of the rate, by how full it is, its pressure, and what is
-    /// above it, half of it rock: the pressure if that is liquid, and the open share of the face.
-    fn asked(filled: f32, pressure: f32, (above, open): (Option<f32>, f32)) -> f32 {
+    /// What is asked of a liquid cell in the middle of liquid, as a share of the rate, by how full it is, its pressure, and the
+    /// pressure of the liquid above it, if there is some. What is above it is half rock.
+    fn asked(filled: f32, pressure: f32, above: Option<f32>) -> f32 {
         let (mut liquid, mut pressures, mut rock) = ([1.0; 9], [0.0; 9], [0.0; 9]);
         (liquid[7], rock[7]) = (if above.is_some() { 1.0 } else { 0.0 }, 0.5);
         (pressures[4], pressures[7]) = (pressure, above.unwrap_or_default());
         let [liquid, pressure, rock] = [&liquid, &pressures, &rock].map(|field| Around::new(field, 4..5, 3));
         let [l, p, r] = [liquid, pressure, rock].map(|field| field.on(IVec2::Y));
-        let above = Above { liquid: l, pressure: p, rock: r, open: &[open] };
+        let above = Above { liquid: l, pressure: p, rock: r };
         let mut asked = [0.0];
         ask(&mut asked, Surface { filled: &[filled], liquid, pressure, rock, above }, 1.0);
         asked[0]
@@ -237,16 +228,15 @@ mod tests {
     #[test]
     fn beneath_a_ceiling_nothing_is_too_thin_where_the_pressure_ends() {
         let close = |found: f32, wanted: f32| assert!((found - wanted).abs() < 1e-6, "{found}, not {wanted}");
-        close(asked(0.95, 1.0, (Some(0.5), 1.0)), -0.05);
-        close(asked(0.95, 1.0, (Some(-0.3), 1.0)), 0.0);
-        close(asked(0.95, 1.0, (None, 1.0)), 0.0);
+        close(asked(0.95, 1.0, Some(0.5)), -0.05);
+        close(asked(0.95, 1.0, Some(-0.3)), 0.0);
         // A vessel that is full to its lid, and one that is not.
-        close(asked(0.95, 1.0, (None, 0.0)), -0.05);
-        close(asked(0.85, 1.0, (None, 0.0)), 0.0);
+        close(asked(0.95, 1.0, None), -0.05);
+        close(asked(0.85, 1.0, None), 0.0);
         // What hangs as a whole, as in a glass that is upside down, has no surface in it.
-        close(asked(0.95, -0.2, (Some(-0.8), 1.0)), -0.05);
+        close(asked(0.95, -0.2, Some(-0.8)), -0.05);
         // What is pressed together gives way in any case.
-        close(asked(1.05, 1.0, (Some(-0.3), 1.0)), 0.05);
-        close(asked(1.05, 1.0, (None, 1.0)), 0.05);
+        close(asked(1.05, 1.0, Some(-0.3)), 0.05);
+        close(asked(1.05, 1.0, None), 0.05);
     }
 }
