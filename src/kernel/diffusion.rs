@@ -58,8 +58,8 @@ fn share_that_wanders(density: f32) -> f32 {
     ((THIN[1] - density) / (THIN[1] - THIN[0])).clamp(0.0, 1.0)
 }
 
-/// Wandering velocity of a lump in a tick, d/s. `spread`: D, d²/s.
-fn velocity(spread: f32, id: u32, tick: u64) -> Vec2 {
+/// Wandering velocity of a lump in a tick, d/s, where it wanders freely. `spread`: D, d²/s.
+pub fn velocity(spread: f32, id: u32, tick: u64) -> Vec2 {
     // They do not all turn at once.
     let own = mix(id ^ 0x9e37_79b9);
     let time = tick + u64::from(own) % TURN;

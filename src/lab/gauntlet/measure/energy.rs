@@ -11,15 +11,18 @@
 //! - what heat gives by making matter heavier or lighter where it is, and takes with what it makes air of: measured lump by lump,
 //!   as that comes last in a tick,
 //! - what gas gives that matter gives off: at most c² e for each part of its mass, e being the highest pressure of all air, as the
-//!   head that it comes in at is no higher; what it takes, it takes for nothing,
+//!   head that it comes in at is no higher,
+//! - what matter gives by taking gas: a cell at a pressure p that loses δ gains `c² (1 − p + ½ δ)` for each part of its mass, as the
+//!   air around can rush in; as δ ≤ p, that is at most c²,
 //! - what heat gives by warming air: it presses harder by `½ ρ c² p² Δτ` at most, which is what it can do as it spreads to the
 //!   pressure around; with p ≤ e that is less than c² e for each part of its mass times Δτ. What the air loses of warmth
 //!   meanwhile is left out,
+//! - what gases gain by wandering: it moves them and is no velocity of theirs, so what it lifts nothing pays for,
 //! - where the air does not yield to the particles that it drags (no feedback), what it gives them: a drag that closes a
 //!   share s of the way from v to the wind w adds `½ m s (w² − v²)` at most, the square being convex.
 
 use crate::{
-    kernel::{element::ElementId, heat::GAS_PARTS, units::TICK_SECONDS},
+    kernel::{diffusion::velocity, element::ElementId, heat::GAS_PARTS, units::TICK_SECONDS},
     lab::balance::matter,
     scene::effects::{Effect, Mode},
     sim::{
@@ -131,22 +134,28 @@ impl Due {
     /// The most that the tick put in, J, now that it is over.
     pub fn put_in(self, world: &World) -> f64 {
         let winds = self.winds.max(winds(world));
-        self.emitted(world) - self.drained + winds + self.dragged(world) + self.changed(world) + self.expanded(world)
+        self.emitted(world) - self.drained
+            + winds
+            + self.dragged(world)
+            + self.changed(world)
+            + self.expanded(world)
+            + wandered(world)
     }
 
-    /// The most that gas gave which matter gave off, and air that it warmed.
+    /// The most that gas gave which matter gave off or took, and air that it warmed.
     fn expanded(&self, world: &World) -> f64 {
         let air = world.resource::<AirGrid>();
-        let given = ((world.resource::<Books>().gas - self.gas) as f64 / GAS_PARTS).max(0.0);
+        let given = (world.resource::<Books>().gas - self.gas) as f64 / GAS_PARTS;
         let warmed = (air.held_warmth() - self.warmth).max(0.0);
-        if given + warmed == 0.0 {
+        if given == 0.0 && warmed == 0.0 {
             return 0.0;
         }
         let d = f64::from(matter(world).scale.spacing);
         let cells = (0..air.rows()).flat_map(|row| (0..air.columns()).map(move |column| (column, row)));
         let most = cells.map(|(column, row)| air.pressing_at_cell(column, row)).fold(1.0, f32::max);
         let speed = f64::from(air.params().sound_speed);
-        (given + warmed) * speed * speed * f64::from(most) * f64::from(air.params().density) * d * d * d * d
+        let of_unit = speed * speed * f64::from(air.params().density) * d * d * d * d;
+        of_unit * ((given.max(0.0) + warmed) * f64::from(most) + (-given).max(0.0))
     }
 
     /// What heat gave.
@@ -207,6 +216,23 @@ impl Due {
         };
         substeps * self.dragged.iter().map(given).sum::<f64>()
     }
+}
+
+/// The most that the gases' wandering lifted in the tick that is over, J.
+fn wandered(world: &World) -> f64 {
+    if !world.resource::<Effects>().get(Effect::Diffusion).running {
+        return 0.0;
+    }
+    let (matter, spreads) = (matter(world), &world.resource::<Elements>().0.diffusion);
+    let (particles, tick) = (matter.particles, world.resource::<Clock>().tick - 1);
+    let seconds = f64::from(TICK_SECONDS) * f64::from(matter.scale.spacing);
+    let lifted = particles.element.iter().zip(&particles.id).filter(|(element, _)| spreads[element.index()] > 0.0).map(
+        |(element, id)| {
+            let way = velocity(spreads[element.index()], *id, tick).as_dvec2() * seconds;
+            (-matter.mass(*element) * matter.gravity(*element).dot(way)).max(0.0)
+        },
+    );
+    lifted.sum()
 }
 
 /// Whether touch, time or heat may change what matter is made of, or warm air lift it: heat also in the tick in which the first
