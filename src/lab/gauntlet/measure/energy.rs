@@ -22,7 +22,7 @@
 //!   share s of the way from v to the wind w adds `½ m s (w² − v²)` at most, the square being convex.
 
 use crate::{
-    kernel::{diffusion::velocity, element::ElementId, heat::GAS_PARTS, units::TICK_SECONDS},
+    kernel::{diffusion, element::ElementId, heat::GAS_PARTS, units::TICK_SECONDS},
     lab::balance::matter,
     scene::effects::{Effect, Mode},
     sim::{
@@ -228,7 +228,7 @@ fn wandered(world: &World) -> f64 {
     let seconds = f64::from(TICK_SECONDS) * f64::from(matter.scale.spacing);
     let lifted = particles.element.iter().zip(&particles.id).filter(|(element, _)| spreads[element.index()] > 0.0).map(
         |(element, id)| {
-            let way = velocity(spreads[element.index()], *id, tick).as_dvec2() * seconds;
+            let way = diffusion::velocity(spreads[element.index()], *id, tick).as_dvec2() * seconds;
             (-matter.mass(*element) * matter.gravity(*element).dot(way)).max(0.0)
         },
     );
