@@ -68,11 +68,14 @@ export async function open(program, display, folder, scene = ['empty']) {
     await until(`the pointer at ${to}`, ({ pointer }) => pointer !== null && near(pointer, to));
   }
 
-  // Waits until the game has drawn a few more frames: what one frame changes, the next ones make room for.
-  async function settle() {
+  // Waits until the game has drawn more frames.
+  async function frames(count) {
     const { frame } = await stats();
-    await until('the next frames', (now) => now.frame > frame + 3);
+    await until('the next frames', (now) => now.frame > frame + count);
   }
+
+  // Waits a few frames: what one frame changes, the next ones make room for.
+  const settle = () => frames(3);
 
   // Points at what has this name. What moves is followed until it keeps still.
   async function hover(name) {
@@ -87,10 +90,11 @@ export async function open(program, display, folder, scene = ['empty']) {
     }
   }
 
-  // Presses a button for a frame or two, as a finger does: what moves in the same frame is not pressed.
+  // Presses a button for a frame or two, as a finger does: what moves in the same frame is not pressed, and what is held for longer
+  // than 0.8 s, which are few frames of a slow machine, is no click.
   async function tap(button) {
     await x('mousedown', button);
-    await settle();
+    await frames(1);
     await x('mouseup', button);
   }
 
