@@ -8,7 +8,12 @@ use figures::{
     repository::Repository,
     stale,
 };
-use std::{path::Path, process::ExitCode};
+use std::{
+    fmt::Write as _,
+    io::{self, Write as _},
+    path::Path,
+    process::ExitCode,
+};
 
 /// The tables and charts of the documents (docs/figures.md)
 #[derive(Debug, Parser)]
@@ -68,25 +73,36 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Fault> {
             is_good = failed.is_empty();
         }
         Task::Stale { check } => {
-            let mut count = 0;
+            let (mut list, mut count) = (String::new(), 0);
             for entry in &manifest.entries {
                 if let Some(reason) = stale::reason(&repository, &manifest, entry)? {
-                    println!("{}", stale::lines(entry, &reason));
+                    _ = writeln!(list, "{}", stale::lines(entry, &reason));
                     count += 1;
                 }
             }
-            println!("{count} of {} figures are out of date", manifest.entries.len());
+            _ = writeln!(list, "{count} of {} figures are out of date", manifest.entries.len());
+            print(&list)?;
             is_good = count == 0 || !check;
         }
         Task::List => {
+            let mut list = String::new();
             for entry in &manifest.entries {
                 let (takes, how) = match &entry.how {
                     How::Made(recipe) => (recipe.takes.as_str(), recipe.commands.join("; ")),
                     How::ByHand(why) => ("–", format!("by hand: {why}")),
                 };
-                println!("{}\t{}\t{takes}\t{how}", entry.name, entry.page);
+                _ = writeln!(list, "{}\t{}\t{takes}\t{how}", entry.name, entry.page);
             }
+            print(&list)?;
         }
     }
     Ok(if is_good { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Prints on stdout. A pipe that its reader has closed (`| head`) is no failure.
+fn print(text: &str) -> Result<(), Fault> {
+    match io::stdout().lock().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Fault::unwritten(Path::new("stdout"), &error)),
+        _ => Ok(()),
+    }
 }
