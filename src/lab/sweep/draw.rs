@@ -12,21 +12,26 @@ const MOST_ERROR: f64 = 1.0;
 /// Least density error that is shown; what has less stands there, too.
 const LEAST_ERROR: f64 = 1e-5;
 
-/// The curve: the front, the presets by their names, all other settings faint.
+/// The curve: the front, the presets by their names, all other settings faint. Density errors are shares of a run's own
+/// spacing, and compared at the same detail only: of other details there are the presets alone, on no front, and say which.
 pub fn chart(subject: &Subject, rows: &[Row]) -> Chart {
-    let own: Vec<&Row> = rows.iter().filter(|row| row.setting.threads == subject.threads).collect();
+    let own = rows.iter().filter(|row| row.setting.threads == subject.threads);
+    let is_compared = |row: &&Row| subject.measure == ErrorMeasure::Air || row.setting.detail() == 1.0;
+    let (compared, apart): (Vec<&Row>, Vec<&Row>) = own.partition(is_compared);
     let points = |rows: &[&Row]| rows.iter().filter_map(|row| point(subject, row)).collect::<Vec<_>>();
-    let mut series = vec![Series::new("front", Look::Front, points(&lower_edge(&own)))];
-    let (presets, others): (Vec<&Row>, Vec<&Row>) = own.into_iter().partition(|row| row.setting.preset.is_some());
+    let mut series = vec![Series::new("front", Look::Front, points(&lower_edge(&compared)))];
+    let (presets, others): (Vec<&Row>, Vec<&Row>) = compared.into_iter().partition(|row| row.setting.preset.is_some());
     series.push(Series::new("other settings", Look::Cloud, points(&others)));
-    for row in presets {
+    for row in presets.into_iter().chain(apart.into_iter().filter(|row| row.setting.preset.is_some())) {
+        let not_compared =
+            if is_compared(&row) { String::new() } else { format!(" (detail {})", row.setting.detail()) };
         let not_valid = if row.is_valid() { "" } else { " (not valid)" };
-        let name = format!("{}{not_valid}", row.setting.name);
+        let name = format!("{}{not_compared}{not_valid}", row.setting.name);
         series.push(Series::new(name, Look::Scatter, point(subject, row)));
     }
     series.retain(|series| !series.points.is_empty());
     let threads = if subject.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", subject.threads) };
-    let errors = || rows.iter().filter_map(|row| point(subject, row)).map(|point| point.y);
+    let errors = || series.iter().flat_map(|series| &series.points).map(|point| point.y);
     let (low, high) = (errors().fold(MOST_ERROR, f64::min), errors().fold(LEAST_ERROR, f64::max));
     Chart {
         title: format!("{}: what accuracy costs", subject.scene),
@@ -128,6 +133,17 @@ mod tests {
         let bars: usize =
             chart.series.iter().flat_map(|series| &series.points).filter(|point| point.x_range.is_some()).count();
         assert_eq!(bars, 2, "draft's own and the front's");
+    }
+
+    #[test]
+    fn density_errors_of_other_details_stand_on_no_front() {
+        let mut rows = [row("draft", 0.5, 0.03), row("draft, detail 0.5", 0.1, 0.01), row("reference", 9.0, 0.001)];
+        rows[1].setting.asked_detail = 0.5;
+        rows.iter_mut().for_each(|row| row.front = true);
+        let chart = chart(&subject(1), &rows);
+        let shown: Vec<(&str, usize)> =
+            chart.series.iter().map(|series| (series.name.as_str(), series.points.len())).collect();
+        assert_eq!(shown, [("front", 1), ("draft", 1), ("reference (detail 2)", 1)]);
     }
 
     #[test]
