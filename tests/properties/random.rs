@@ -21,8 +21,9 @@ const ENOUGH_FOR_ALL_RULES: u64 = 200;
 /// what a test can hold them to is how many do.
 const KNOWN: [Rule; 4] = [Rule::Energy, Rule::Density, Rule::Rest, Rule::Cost];
 
-/// Share of worlds that miss them. 11 of 20,000 did (docs/stability.md): if one in a thousand does, so few are seen once in fifty times.
-const KNOWN_SHARE: f64 = 0.001;
+/// Share of worlds that miss them. 10 of 10,000 of a new seed did (docs/stability.md): if two in a thousand do, so few are seen once
+/// in a hundred times.
+const KNOWN_SHARE: f64 = 0.002;
 
 /// Chance with which a run fails though no more worlds miss a rule than did: once in 10,000 runs.
 const FALSE_ALARM: f64 = 1e-4;
@@ -43,8 +44,8 @@ fn most_known(count: u64) -> usize {
 
 #[test]
 fn no_more_may_miss_a_rule_than_chance_has_it() {
-    // Tables of the law: at a mean of 0.2 .99885 up to 2, .99994 up to 3; at a mean of 1 .99941 up to 5, .99992 up to 6.
-    assert_eq!([200, 1000].map(most_known), [3, 6]);
+    // Tables of the law: at a mean of 0.4 .99922 up to 3, .99994 up to 4; at a mean of 2 .99976 up to 8, .99995 up to 9.
+    assert_eq!([200, 1000].map(most_known), [4, 9]);
 }
 
 /// A number that the environment gives, or else another.
