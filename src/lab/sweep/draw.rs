@@ -17,12 +17,15 @@ const LEAST_ERROR: f64 = 1e-5;
 pub fn chart(subject: &Subject, rows: &[Row]) -> Chart {
     let own = rows.iter().filter(|row| row.setting.threads == subject.threads);
     let is_compared = |row: &&Row| subject.measure == ErrorMeasure::Air || row.setting.detail() == 1.0;
-    let (compared, apart): (Vec<&Row>, Vec<&Row>) = own.partition(is_compared);
     let points = |rows: &[&Row]| rows.iter().filter_map(|row| point(subject, row)).collect::<Vec<_>>();
-    let mut series = vec![Series::new("front", Look::Front, points(&lower_edge(&compared)))];
-    let (presets, others): (Vec<&Row>, Vec<&Row>) = compared.into_iter().partition(|row| row.setting.preset.is_some());
-    series.push(Series::new("other settings", Look::Cloud, points(&others)));
-    for row in presets.into_iter().chain(apart.into_iter().filter(|row| row.setting.preset.is_some())) {
+    let compared: Vec<&Row> = own.clone().filter(is_compared).collect();
+    let (presets, others): (Vec<&Row>, Vec<&Row>) = own.partition(|row| row.setting.preset.is_some());
+    let others: Vec<&Row> = others.into_iter().filter(is_compared).collect();
+    let mut series = vec![
+        Series::new("front", Look::Front, points(&lower_edge(&compared))),
+        Series::new("other settings", Look::Cloud, points(&others)),
+    ];
+    for row in presets {
         let not_compared =
             if is_compared(&row) { String::new() } else { format!(" (detail {})", row.setting.detail()) };
         let not_valid = if row.is_valid() { "" } else { " (not valid)" };
