@@ -24,10 +24,11 @@ pub(in crate::lab::gauntlet) fn is_plain(fluid: &FluidParams) -> bool {
 }
 
 /// Why a scene is not at rest from the start with sleep off, if it is not: in water that fills all that is free up to one
-/// height, at rest, under a gravity that pulls straight down, and in still air, every force is held by another.
+/// height, at rest, under a gravity that pulls straight down, and in still air as warm as itself, every force is held by another.
 pub(in crate::lab::gauntlet) fn why_not_at_rest(blueprint: &Blueprint) -> Result<(), &'static str> {
     let Blueprint { particles, solids, domain, emitters, winds, drains, pressures, effects, .. } = blueprint;
     let moves = |i: usize| particles.velocity(i) != Vec2::ZERO;
+    let is_off = |effect: Effect| effects.get(&effect) == Some(&Mode::Off);
     if particles.is_empty() {
         return Err("nothing that could move");
     }
@@ -37,7 +38,7 @@ pub(in crate::lab::gauntlet) fn why_not_at_rest(blueprint: &Blueprint) -> Result
     if effects.get(&Effect::Sleep) != Some(&Mode::Off) {
         return Err("sleep would hide motion");
     }
-    if effects.get(&Effect::Predictor) == Some(&Mode::Off) || !blueprint.quality.predictor {
+    if is_off(Effect::Predictor) || !blueprint.quality.predictor {
         return Err("no predictor");
     }
     if domain.gravity.x != 0.0 || domain.gravity.y > 0.0 || (0..particles.len()).any(moves) {
@@ -45,6 +46,10 @@ pub(in crate::lab::gauntlet) fn why_not_at_rest(blueprint: &Blueprint) -> Result
     }
     if particles.element.iter().any(|element| blueprint.elements.get(*element).is_gas()) {
         return Err("a gas rises");
+    }
+    let is_hot = particles.has_heat() || !solids.heats().is_empty();
+    if is_hot && ![Effect::Heat, Effect::Convection, Effect::Air].into_iter().any(is_off) {
+        return Err("what is hot or cold stirs the air");
     }
     let top = particles.y.iter().fold(0.0_f32, |top, y| top.max(*y)) as i32;
     let cells = (0..=top).flat_map(|y| (0..solids.columns()).map(move |x| IVec2::new(x, y)));

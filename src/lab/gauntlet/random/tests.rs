@@ -124,6 +124,17 @@ fn rest_is_judged_with_everything_awake() {
 }
 
 #[test]
+fn what_is_hot_may_move_as_long_as_it_can_warm_the_air() {
+    let lava = |effects: &str| {
+        let scene = POOL.replace("water", "lava").replace("sleep: off", effects);
+        examine(&Case { scene, ..pool() }).findings()[Rule::Rest as usize].measured.clone()
+    };
+    assert_eq!(lava("sleep: off"), Err("what is hot or cold stirs the air"));
+    let calm = lava("sleep: off, convection: off").expect("it is judged");
+    assert!(!calm.is_broken(), "{calm:?}");
+}
+
+#[test]
 fn only_what_stays_what_it_is_is_held_to_the_bound_of_still_water() {
     let bound = |case: &Case| {
         let finding = examine(case).findings()[Rule::Density as usize].clone();
