@@ -12,7 +12,7 @@ use crate::{
         },
     },
     scene::SceneError,
-    sim::{numbers::figure, state::ParticleStore},
+    sim::numbers::figure,
 };
 
 impl Case for GauntletCase {
@@ -79,7 +79,7 @@ impl Case for GauntletCase {
             judge.look(ticks, simulation.world());
         }
         let ms = stopwatch.milliseconds();
-        let calm = calm_ms(&blueprint, &simulation.world().resource::<ParticleStore>().0).await;
+        let calm = calm_ms(&blueprint, simulation.world()).await;
         Ok(vec![judge.finish(self, setting.preset, simulation.world(), [calm, ms])])
     }
 
@@ -103,7 +103,7 @@ fn introduction(command: &str, processor: &str) -> String {
          *rest*: rms speed over the last tenth, d a tick. *speed*: the fastest, d/s. *air*: change of the mass of air \
          that is shut in, as a share of it. *cost*: the most expensive tick's pairs and steps of the air, as a multiple of a \
          calm tick's in the same world (the same on every machine). *time*: the time that nine in ten ticks do not exceed, as \
-         a multiple of a calm tick's in the same run, {least} ms at least. \
+         a multiple of a calm tick's with the same effects in the same run, {least} ms at least. \
          *clamps*: what all limiters did, summed over particles, cells and substeps. *ms*: median and longest tick, one \
          thread ({processor}, all processors busy).\n\n\
          The bounds are the same everywhere and at every quality, but where a case says otherwise and why:\n\n{bounds}\n\n\
