@@ -21,8 +21,8 @@ const ENOUGH_FOR_ALL_RULES: u64 = 200;
 /// what a test can hold them to is how many do.
 const KNOWN: [Rule; 4] = [Rule::Energy, Rule::Density, Rule::Rest, Rule::Cost];
 
-/// Share of worlds that miss them. 11 of 10,000 of a new seed did (docs/stability.md): if two in a thousand do, so few are seen once
-/// in fifty times.
+/// Share of worlds that miss them. 14 of 10,000 of the newest seed did (docs/stability.md): if two in a thousand do, no more are seen
+/// once in ten times.
 const KNOWN_SHARE: f64 = 0.002;
 
 /// Chance with which a run fails though no more worlds miss a rule than did: once in 10,000 runs.
