@@ -9,7 +9,7 @@ use crate::{
 use std::{
     ops::Range,
     sync::{
-        Mutex, PoisonError,
+        Mutex, TryLockError,
         atomic::{AtomicBool, AtomicUsize, Ordering},
     },
 };
@@ -57,7 +57,6 @@ fn fork_among_crew<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
     cut_up(part, most, MOST_PARTS, &mut places);
     let count = MOST_PARTS - places.len();
     let parts = &parts[..count];
-    let take = |part: &Mutex<Option<P>>| part.lock().unwrap_or_else(PoisonError::into_inner).take();
     let from_last = AtomicUsize::new(0);
     // Whoever comes to a part that is taken has met those from the other end: there is none left beyond.
     crew::share(&|leads| match leads {
@@ -67,6 +66,16 @@ fn fork_among_crew<P: Parts>(part: P, most: usize, run: &(impl Fn(P) + Sync)) {
             places.map_while(|place| take(&parts[place])).for_each(run);
         }
     });
+}
+
+/// Takes a part, unless another has. Whoever holds its lock is taking it, so there is nothing to wait for; and a page's own thread may
+/// not wait: the browser ends it.
+fn take<P>(part: &Mutex<Option<P>>) -> Option<P> {
+    match part.try_lock() {
+        Ok(mut part) => part.take(),
+        Err(TryLockError::Poisoned(part)) => part.into_inner().take(),
+        Err(TryLockError::WouldBlock) => None,
+    }
 }
 
 /// Halves a part until none is more than `most`, or there are as many as there is room for.
@@ -313,6 +322,16 @@ pub(crate) fn in_pool<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Waiting for the lock would end a page, and here it would last for ever.
+    #[test]
+    fn a_part_that_another_is_taking_is_not_waited_for() {
+        let part = Mutex::new(Some(1));
+        let held = part.lock().unwrap();
+        assert_eq!(take(&part), None);
+        drop(held);
+        assert_eq!([take(&part), take(&part)], [Some(1), None]);
+    }
 
     struct Number {
         stride: usize,
