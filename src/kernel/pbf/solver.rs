@@ -213,10 +213,6 @@ impl Solver {
         };
         pass.find_lambda::<G>(lambda, density);
         let density = &density[..];
-        if reach == Reach::Focused {
-            next_x.copy_from_slice(x);
-            next_y.copy_from_slice(y);
-        }
         let next = [&mut next_x[..], &mut next_y[..]];
         match (params.tension, params.predicted) {
             (false, false) => pass.correct::<G, false, false>(lambda, density, next),
@@ -224,8 +220,24 @@ impl Solver {
             (true, false) => pass.correct::<G, true, false>(lambda, density, next),
             (true, true) => pass.correct::<G, true, true>(lambda, density, next),
         }
-        std::mem::swap(x, next_x);
-        std::mem::swap(y, next_y);
+        if reach == Reach::Focused {
+            // The others stay where they are.
+            bins::split(bins.focused(), [x, y], params.threads, &|groups, base, at| {
+                take_over(groups, base, at, [next_x, next_y]);
+            });
+        } else {
+            std::mem::swap(x, next_x);
+            std::mem::swap(y, next_y);
+        }
+    }
+}
+
+/// Sets the particles of `groups` to where they are `next`; `at` begins with particle `base`.
+fn take_over(groups: &[Group], base: usize, at: [&mut [f32]; 2], next: [&[f32]; 2]) {
+    for (at, next) in at.into_iter().zip(next) {
+        for own in groups.iter().map(Group::particles) {
+            at[own.start - base..own.end - base].copy_from_slice(&next[own]);
+        }
     }
 }
 
