@@ -4,7 +4,7 @@ use crate::{
     parallel::{Rows, Sweep, Team, sweep},
     predictor::{
         conjugate::Conjugate,
-        equation::{Around, CHUNK, fill_in, lighten, steepness, touch},
+        equation::{Around, CHUNK, fill_in, lighten, marked, steepness, touch},
         grid::MacGrid,
         level::{Level, WORTH_A_PIECE},
         rock::ClosedFaces,
@@ -85,29 +85,35 @@ impl Sweep<Touched<'_>> for Touch<'_> {
         let around = columns.start.saturating_sub(1)..(columns.end + 1).min(grid.stride);
         let out = known.each().zip(gained.each().zip(drift.each()));
         for (j, (known, (gained, drift))) in rows.zip(out) {
-            let fields = [&mut *known, gained, drift];
-            if !touching.contains(&j) {
-                fields.into_iter().for_each(|field| field[around.clone()].fill(0.0));
-                continue;
-            }
+            let fields = [&mut *known, &mut *gained, &mut *drift];
+            // Most faces of a wide box touch no liquid.
             for field in fields {
-                (field[around.start], field[around.end - 1]) = (0.0, 0.0);
+                field[around.clone()].fill(0.0);
+            }
+            if !touching.contains(&j) {
+                continue;
             }
             let end = grid.row(j) + columns.end;
             for start in (grid.row(j) + columns.start.max(1)..end).step_by(CHUNK) {
-                let cells = start..end.min(start + CHUNK);
-                let own = start - grid.row(j)..start - grid.row(j) + cells.len();
-                let before = cells.start - step..cells.end - step;
-                let beside = [before, cells.clone()];
+                let sides = |cells: Range<usize>| [cells.start - step..cells.end - step, cells];
+                let [dry, wet] = sides(start..end.min(start + CHUNK)).map(|cells| &liquid[cells]);
                 // On the stack, so that nothing that is read can be what is written.
-                let (n, mut out) = (own.len(), [[0.0_f32; CHUNK]; 4]);
-                let [steep, touches, velocity, shift] = out.each_mut().map(|field| &mut field[..n]);
-                let [dry, wet] = beside.clone().map(|cells| &liquid[cells]);
-                for i in 0..n {
-                    touches[i] = if dry[i] + wet[i] > 0.0 { 1.0 } else { 0.0 };
+                let mut out = [[0.0_f32; CHUNK]; 4];
+                let [steep, touches, velocity, shift] = &mut out;
+                for ((touches, dry), wet) in touches.iter_mut().zip(dry).zip(wet) {
+                    *touches = if *dry + *wet > 0.0 { 1.0 } else { 0.0 };
                 }
-                let filled = beside.clone().map(|cells| &filled[cells]);
-                steepness(steep, [dry, wet], filled, closed.beside(grid, axis, start, n));
+                let called_for = marked(&touches[..dry.len()]);
+                if called_for.is_empty() {
+                    continue;
+                }
+                let (n, cells) = (called_for.len(), start + called_for.start..start + called_for.end);
+                let own = cells.start - grid.row(j)..cells.end - grid.row(j);
+                let touches = &touches[called_for];
+                let [steep, velocity, shift] = [steep, velocity, shift].map(|field| &mut field[..n]);
+                let beside = sides(cells.clone());
+                let [liquid, filled] = [liquid, filled].map(|field| beside.clone().map(|cells| &field[cells]));
+                steepness(steep, liquid, filled, closed.beside(grid, axis, cells.start, n));
                 if let Some(matter) = matter {
                     lighten(steep, &matter[cells.clone()]);
                 }
@@ -163,13 +169,19 @@ impl Sweep<Rows<'_, Way>> for FillIn<'_> {
             let ways = &mut ways[columns.clone()];
             let faces = grid.row(j) + columns.start..grid.row(j) + columns.end;
             if near.contains(&j) {
+                ways.fill([0.0; 2]);
                 for start in faces.clone().step_by(CHUNK) {
+                    let around = |field, faces| Around::new(field, faces, grid.stride);
                     let faces = start..faces.end.min(start + CHUNK);
-                    let own = start - grid.row(j) - columns.start..faces.end - grid.row(j) - columns.start;
-                    let around = |field| Around::new(field, faces.clone(), grid.stride);
+                    let called_for = around(known, faces.clone()).marked();
+                    if called_for.is_empty() {
+                        continue;
+                    }
+                    let faces = start + called_for.start..start + called_for.end;
+                    let own = faces.start - grid.row(j) - columns.start..faces.end - grid.row(j) - columns.start;
                     let mut out = [[0.0; 2]; CHUNK];
                     let out = &mut out[..faces.len()];
-                    fill_in(out, changes.map(around), around(known));
+                    fill_in(out, changes.map(|field| around(field, faces.clone())), around(known, faces.clone()));
                     if let Some(matter) = matter {
                         let unknown = out.iter_mut().zip(faces).filter(|(_, face)| known[*face] == 0.0);
                         unknown.for_each(|(way, face)| way[0] = self.gained_beside(matter, face));

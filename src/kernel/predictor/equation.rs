@@ -13,6 +13,22 @@ const LEAST_THETA: f32 = 0.05;
 /// Cells of a row that are done together where values are made on the way.
 pub(super) const CHUNK: usize = 64;
 
+/// Entries that are left out together where none of them is called for.
+const LEFT_OUT: usize = 16;
+
+/// From the first to the last of the marks that is not 0, rounded to whole pieces of [`LEFT_OUT`]; nothing if all are 0.
+#[inline(always)]
+pub(super) fn marked(marks: &[f32]) -> Range<usize> {
+    let mut found = 0..0;
+    for (k, piece) in marks.chunks(LEFT_OUT).enumerate() {
+        if piece.iter().fold(false, |any, mark| any | (*mark != 0.0)) {
+            let start = if found.is_empty() { k * LEFT_OUT } else { found.start };
+            found = start..k * LEFT_OUT + piece.len();
+        }
+    }
+    found
+}
+
 /// A row of cells, and its neighbours to all sides.
 #[derive(Clone, Copy)]
 pub(super) struct Around<'a> {
@@ -41,9 +57,20 @@ impl<'a> Around<'a> {
 impl<'a> Around<'a> {
     /// The first `n` entries. The compiler sees from it that all are as long.
     #[inline(always)]
-    fn first(self, n: usize) -> Self {
+    pub fn first(self, n: usize) -> Self {
         let Self { centre, left, right, lower, upper } = self;
         Self { centre: &centre[..n], left: &left[..n], right: &right[..n], lower: &lower[..n], upper: &upper[..n] }
+    }
+
+    /// From the first to the last entry that is marked itself or beside one that is, as [`marked`] has it; of up to [`CHUNK`].
+    #[inline(always)]
+    pub fn marked(self) -> Range<usize> {
+        let (n, mut marks) = (self.centre.len(), [0.0_f32; CHUNK]);
+        let Self { centre, left, right, lower, upper } = self.first(n);
+        for i in 0..n {
+            marks[i] = (left[i] + right[i]) + (lower[i] + upper[i]) + centre[i];
+        }
+        marked(&marks[..n])
     }
 
     /// The cells on the side that lies `way` of each; the cells themselves for no way.
@@ -90,6 +117,13 @@ impl<'a, T> Sides<'a, T> {
 }
 
 impl<'a, T> Sides<'a, T> {
+    /// The first `n` of each. The compiler sees from it that all are as long.
+    #[inline(always)]
+    fn first(self, n: usize) -> Self {
+        let Self { left, right, lower, upper } = self;
+        Self { left: &left[..n], right: &right[..n], lower: &lower[..n], upper: &upper[..n] }
+    }
+
     /// The faces of a row of cells from rows of their own: left faces with one more at the end, lower and upper ones.
     #[inline(always)]
     pub fn of_rows(u: &'a [T], lower: &'a [T], upper: &'a [T]) -> Self {
@@ -100,8 +134,9 @@ impl<'a, T> Sides<'a, T> {
 /// How full cells are: the sum of their faces' weights times `share`, and their rock.
 #[inline(always)]
 pub(super) fn fill(filled: &mut [f32], weights: Sides<[f32; 2]>, rock: &[f32], share: f32) {
-    let Sides { left, right, lower, upper } = weights;
-    for i in 0..filled.len() {
+    let n = filled.len();
+    let (Sides { left, right, lower, upper }, rock) = (weights.first(n), &rock[..n]);
+    for i in 0..n {
         filled[i] = share * (left[i][0] + right[i][0] + lower[i][0] + upper[i][0]) + rock[i];
     }
 }
@@ -109,7 +144,9 @@ pub(super) fn fill(filled: &mut [f32], weights: Sides<[f32; 2]>, rock: &[f32], s
 /// Marks cells that are full enough to be liquid.
 #[inline(always)]
 pub(super) fn mark(liquid: &mut [f32], filled: &[f32], liquid_from: &[f32]) {
-    for i in 0..liquid.len() {
+    let n = liquid.len();
+    let (filled, liquid_from) = (&filled[..n], &liquid_from[..n]);
+    for i in 0..n {
         liquid[i] = if filled[i] >= liquid_from[i] { 1.0 } else { 0.0 };
     }
 }
@@ -149,7 +186,10 @@ pub(super) fn couple(
     open: Sides<f32>,
     steep: Sides<f32>,
 ) {
-    for i in 0..diagonal.len() {
+    let n = diagonal.len();
+    let (to_right, to_upper) = (&mut to_right[..n], &mut to_upper[..n]);
+    let (liquid, open, steep) = (liquid.first(n), open.first(n), steep.first(n));
+    for i in 0..n {
         let along = open.left[i] * steep.left[i] + open.right[i] * steep.right[i];
         let up = open.lower[i] * steep.lower[i] + open.upper[i] * steep.upper[i];
         diagonal[i] = liquid.centre[i] * (along + up);
@@ -178,8 +218,10 @@ pub(super) fn may_be_sealed(
     open: Sides<f32>,
     steep: Sides<f32>,
 ) -> bool {
-    let mut any = false;
-    for i in 0..diagonal.len() {
+    let (n, mut any) = (diagonal.len(), false);
+    let (to_right, to_upper) = (&to_right[..n], &to_upper[..n]);
+    let (liquid, open, steep) = (liquid.first(n), open.first(n), steep.first(n));
+    for i in 0..n {
         let to_left = liquid.centre[i] * open.left[i] * liquid.left[i] * steep.left[i];
         let to_lower = liquid.centre[i] * open.lower[i] * liquid.lower[i] * steep.lower[i];
         let coupled = to_left + to_lower + to_right[i] + to_upper[i];
@@ -246,7 +288,9 @@ const WEIGHTY: f32 = 0.05;
 /// `densities`: of the faces, shares of the heaviest's.
 #[inline(always)]
 pub(super) fn spare_the_heavy(right_side: &mut [f32], densities: Sides<[f32; 2]>) {
-    for i in 0..right_side.len() {
+    let n = right_side.len();
+    let densities = densities.first(n);
+    for i in 0..n {
         let [left, right] = [densities.left[i][0], densities.right[i][0]];
         let [lower, upper] = [densities.lower[i][0], densities.upper[i][0]];
         let share = 0.25 / WEIGHTY * (left + right + lower + upper);
@@ -257,7 +301,9 @@ pub(super) fn spare_the_heavy(right_side: &mut [f32], densities: Sides<[f32; 2]>
 /// Takes the divergence of the velocities off the right-hand side of liquid cells; 0 in the others.
 #[inline(always)]
 pub(super) fn subtract_divergence(right_side: &mut [f32], liquid: &[f32], open: Sides<f32>, faces: Sides<[f32; 2]>) {
-    for i in 0..right_side.len() {
+    let n = right_side.len();
+    let (liquid, open, faces) = (&liquid[..n], open.first(n), faces.first(n));
+    for i in 0..n {
         let divergence = open.right[i] * faces.right[i][1] - open.left[i] * faces.left[i][1]
             + open.upper[i] * faces.upper[i][1]
             - open.lower[i] * faces.lower[i][1];

@@ -80,9 +80,11 @@ impl Sweep<Rows<'_, f32>> for FeedBack<'_> {
 /// [`RANGE`] and was cut to it.
 #[inline(always)]
 fn ask(right_side: &mut [f32], surface: Surface, feedback: f32) -> u32 {
+    let n = right_side.len();
+    let surface = surface.first(n);
     let Surface { filled, liquid, .. } = surface;
     let mut cuts = 0;
-    for i in 0..right_side.len() {
+    for i in 0..n {
         let at_surface = surface.is_at(i);
         let (least, most) = (if at_surface { 0.0 } else { RANGE.0 }, RANGE.1);
         let wanted = filled[i] - 1.0;
@@ -162,6 +164,15 @@ impl<'a> Surface<'a> {
         let up = closed.up();
         let above = Above { liquid: liquid.on(up), pressure: pressure.on(up), rock: rock.on(up) };
         Self { filled: &filled[cells], liquid, pressure, rock, above }
+    }
+
+    /// The first `n` cells. The compiler sees from it that all is as long.
+    #[inline(always)]
+    fn first(self, n: usize) -> Self {
+        let Self { filled, liquid, pressure, rock, above } = self;
+        let above = Above { liquid: &above.liquid[..n], pressure: &above.pressure[..n], rock: &above.rock[..n] };
+        let [liquid, pressure, rock] = [liquid, pressure, rock].map(|field| field.first(n));
+        Self { filled: &filled[..n], liquid, pressure, rock, above }
     }
 
     /// Whether the surface is beside liquid cell `i`, or in it.

@@ -61,6 +61,10 @@ impl LettingGo {
             walls.partition_point(|k| row_of(*k) < rows.start)..walls.partition_point(|k| row_of(*k) < rows.end);
         for &cell in &walls[of_rows] {
             let k = cell as usize;
+            // Most push.
+            if solution[k] > FREE {
+                continue;
+            }
             let is_beside_air = sides(k).any(|other| liquid[other] == 0.0);
             let is_pulled = solution[k] < if is_beside_air { FREE } else { FREE - most(k) };
             let stays_free = solution[k] == FREE && outflow(grid, closed, faces, k) > 0.0;

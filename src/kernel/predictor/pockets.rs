@@ -17,14 +17,19 @@ pub(super) fn is_sealed(diagonal: f32, coupled: f32) -> bool {
     diagonal - coupled <= if light > 1.0 { light * ROUNDING } else { ROUNDING }
 }
 
+/// Cells that are looked at together.
+const LOOKED_AT: usize = 16;
+
 /// Parts that there is room for at least: there are few but for spray.
 const FEWEST_PARTS: usize = 64;
 
-/// The connected parts of the liquid. The buffer is kept. Each cell's label stands in the level's `work`, as a number
-/// that single precision holds exactly.
+/// The connected parts of the liquid. The buffers are kept. Each cell's label, or the number of the way that led to it, stands in the
+/// level's `work`, as a number that single precision holds exactly.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pockets {
     parts: Vec<Part>,
+    /// Cells that a way to air may lead on from.
+    next: Vec<u32>,
 }
 
 /// A connected part of the liquid.
@@ -41,8 +46,83 @@ struct Part {
 const OPEN: u32 = u32::MAX;
 
 impl Pockets {
-    /// Takes the mean of the right-hand side out of every pocket. Returns whether there is any.
-    pub fn balance(&mut self, grid: &MacGrid, level: &mut Level) -> bool {
+    /// Whether there is any pocket: liquid from which no way leads to air. That is looked for from where no liquid is above and no
+    /// air beside, as there is such a cell in every pocket; most others are near air.
+    #[inline(always)]
+    pub fn are_there(&mut self, grid: &MacGrid, level: &mut Level) -> bool {
+        let Level { wet, operator, work: seen, .. } = level;
+        let [diagonal, _, right, upper] = operator.fields();
+        for j in wet.rows() {
+            wet.runs(j).for_each(|run| seen[grid.row(j)..][run].fill(0.0));
+        }
+        self.next.clear();
+        let cells = wet.rows().len() * wet.per_row();
+        if cells > self.next.capacity() {
+            // As many as there can be, and some to spare: room is made when water comes, not when it moves.
+            self.next.reserve_exact(cells + cells / 2);
+        }
+        let coupled = |k: usize| right[k - 1] + upper[k - grid.stride] + right[k] + upper[k];
+        let touches_air = |k: usize| !is_sealed(diagonal[k], coupled(k));
+        let mut ways = 0.0;
+        for j in wet.rows() {
+            for run in wet.runs(j) {
+                for start in run.clone().step_by(LOOKED_AT) {
+                    let cells = grid.row(j) + start..grid.row(j) + run.end.min(start + LOOKED_AT);
+                    // Inside the liquid all have some above them.
+                    if upper[cells.clone()].iter().fold(true, |all, coupling| all & (*coupling > 0.0)) {
+                        continue;
+                    }
+                    let ends = cells.filter(|k| diagonal[*k] > 0.0 && upper[*k] == 0.0);
+                    for k in ends {
+                        if seen[k] == 0.0 && !touches_air(k) {
+                            ways += 1.0;
+                            if !self.leads_to_air(k, ways, grid.stride, [right, upper], seen, touches_air) {
+                                return true;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// Whether a way leads from a cell to air, or to where another did. Marks where it goes along with its number.
+    fn leads_to_air(
+        &mut self,
+        from: usize,
+        number: f32,
+        stride: usize,
+        [right, upper]: [&[f32]; 2],
+        seen: &mut [f32],
+        touches_air: impl Fn(usize) -> bool,
+    ) -> bool {
+        let Self { next, .. } = self;
+        next.clear();
+        next.push(from as u32);
+        seen[from] = number;
+        while let Some(k) = next.pop().map(|k| k as usize) {
+            if touches_air(k) {
+                return true;
+            }
+            // What comes last is gone first: up.
+            let down_and_aside = [(k - stride, upper[k - stride]), (k - 1, right[k - 1]), (k + 1, right[k])];
+            for (other, coupling) in down_and_aside.into_iter().chain([(k + stride, upper[k])]) {
+                if coupling == 0.0 || seen[other] == number {
+                    continue;
+                }
+                if seen[other] > 0.0 {
+                    return true;
+                }
+                seen[other] = number;
+                next.push(other as u32);
+            }
+        }
+        false
+    }
+
+    /// Takes the mean of the right-hand side out of every pocket.
+    pub fn balance(&mut self, grid: &MacGrid, level: &mut Level) {
         self.parts.clear();
         let s = grid.stride;
         let Level { wet, operator, b, work, .. } = level;
@@ -68,9 +148,6 @@ impl Pockets {
             }
         }
         self.gather();
-        if self.parts.iter().all(|part| part.cells == OPEN) {
-            return false;
-        }
         for j in wet.rows() {
             for k in wet.runs(j).flat_map(|run| grid.row(j) + run.start..grid.row(j) + run.end) {
                 if diagonal[k] == 0.0 {
@@ -82,7 +159,6 @@ impl Pockets {
                 }
             }
         }
-        true
     }
 
     fn found(&mut self) -> u32 {
@@ -132,6 +208,6 @@ impl Pockets {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        size_of::<Part>() * self.parts.capacity()
+        size_of::<Part>() * self.parts.capacity() + 4 * self.next.capacity()
     }
 }

@@ -97,7 +97,10 @@ impl Pass for Projection<'_> {
             let bed = Bed::new((grid, closed), conjugate, full, kick, team);
             grains.begin(&bed, faces, &mut hierarchy.finest().b);
         }
-        let has_pockets = sealed && pockets.balance(grid, hierarchy.finest());
+        let has_pockets = sealed && pockets.are_there(grid, hierarchy.finest());
+        if has_pockets {
+            pockets.balance(grid, hierarchy.finest());
+        }
         hierarchy.coarsen(team);
         let mut pressure = std::mem::take(&mut conjugate.solution);
         let tolerance = tolerance(dt) * if grains.is_some() { OF_GRAINS } else { 1.0 };
